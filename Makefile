@@ -1,0 +1,40 @@
+# Every target is a script in scripts/; see CONTRIBUTING.md.
+# PG_CONFIG=/path/to/pg_config chooses another PostgreSQL, 14 to 18.
+
+.PHONY: help setup build db db-stop clean-db demo test bench install lint fmt
+
+help: ## list the targets
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
+
+setup: ## install what a bare Debian 12 lacks
+	@scripts/setup
+
+build: setup ## build the extension and the command line, and stage the extension
+	@scripts/build
+
+db: build ## start or reuse this checkout's private cluster; its URL is the last line
+	@scripts/db start
+
+db-stop: ## stop it
+	@scripts/db stop
+
+clean-db: ## stop it and delete its data
+	@scripts/db clean
+
+demo: ## a real city to a visible answer (CITY=file, FRESH=1)
+	@scripts/demo
+
+test: ## run every test; ends with "N passed, N failed"
+	@scripts/test
+
+bench: build ## run every benchmark
+	@scripts/bench
+
+install: ## copy what "make build" made into the server of PG_CONFIG
+	@scripts/install
+
+lint: setup ## every check that needs no database
+	@scripts/lint
+
+fmt: ## format the Rust code
+	@cargo fmt --all

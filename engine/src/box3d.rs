@@ -1,0 +1,106 @@
+//! [`Box3d`], the axis-aligned box.
+
+use glam::DVec3;
+
+/// An axis-aligned box in metres: the closed set of points between two corners.
+///
+/// Holds `min <= max` on every axis; a box may be flat, or a single point.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Box3d {
+    /// The corner with the least coordinates.
+    pub min: DVec3,
+    /// The corner with the greatest coordinates.
+    pub max: DVec3,
+}
+
+impl Box3d {
+    /// The box spanned by two opposite corners, given in any order.
+    #[must_use]
+    pub fn new(corner: DVec3, opposite: DVec3) -> Self {
+        Self { min: corner.min(opposite), max: corner.max(opposite) }
+    }
+
+    /// The smallest box that holds all `points`; `None` when there are none.
+    #[must_use]
+    pub fn around(points: impl IntoIterator<Item = DVec3>) -> Option<Self> {
+        points.into_iter().map(|p| Self { min: p, max: p }).reduce(|a, b| a.union(&b))
+    }
+
+    /// The smallest box that holds both.
+    #[must_use]
+    pub fn union(&self, other: &Self) -> Self {
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
+    /// Edge lengths in metres.
+    #[must_use]
+    pub fn size(&self) -> DVec3 {
+        self.max - self.min
+    }
+
+    /// The middle of the box.
+    #[must_use]
+    pub fn center(&self) -> DVec3 {
+        self.min + self.size() * 0.5
+    }
+
+    /// Volume in cubic metres; 0 for a flat box.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        self.size().element_product()
+    }
+
+    /// Sum of the three edge lengths in metres, which ranks flat boxes too.
+    #[must_use]
+    pub fn margin(&self) -> f64 {
+        self.size().element_sum()
+    }
+
+    /// The eight corners; bit 0, 1, 2 of the position choose max on x, y, z.
+    #[must_use]
+    pub fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|i| {
+            let pick = |axis: usize| if i >> axis & 1 == 1 { self.max[axis] } else { self.min[axis] };
+            DVec3::new(pick(0), pick(1), pick(2))
+        })
+    }
+
+    /// Whether the closed boxes share a point.
+    #[must_use]
+    pub fn overlaps(&self, other: &Self) -> bool {
+        self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
+    }
+
+    /// Whether `other` lies in the closed box.
+    #[must_use]
+    pub fn contains(&self, other: &Self) -> bool {
+        self.min.cmple(other.min).all() && other.max.cmple(self.max).all()
+    }
+
+    /// Whether `point` lies in the closed box.
+    #[must_use]
+    pub fn contains_point(&self, point: DVec3) -> bool {
+        self.min.cmple(point).all() && point.cmple(self.max).all()
+    }
+
+    /// The box moved outward by `margin` metres on every side; a negative margin shrinks it.
+    /// `None` when nothing would be left.
+    #[must_use]
+    pub fn expanded(&self, margin: f64) -> Option<Self> {
+        let grown = Self { min: self.min - margin, max: self.max + margin };
+        grown.min.cmple(grown.max).all().then_some(grown)
+    }
+
+    /// Euclidean distance in metres from `point` to the closed box; 0 inside.
+    #[must_use]
+    pub fn distance_to_point(&self, point: DVec3) -> f64 {
+        (point.clamp(self.min, self.max) - point).length()
+    }
+
+    /// Euclidean distance in metres between the closed boxes; 0 when they share a point.
+    #[must_use]
+    pub fn distance(&self, other: &Self) -> f64 {
+        (self.min - other.max).max(other.min - self.max).max(DVec3::ZERO).length()
+    }
+}

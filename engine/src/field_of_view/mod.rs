@@ -1,0 +1,27 @@
+//! What an observer looks at: [`ViewCone`], [`ViewSector`], and the ball all round ([`in_range`]).
+//! Each asks one question of a box: do they share a point? The answers are exact up to the
+//! tolerances named here, and err to "yes".
+
+mod view_cone;
+mod view_sector;
+
+pub use view_cone::ViewCone;
+pub use view_sector::ViewSector;
+
+use crate::Box3d;
+use glam::DVec3;
+
+/// Relative slack on squared distances and on cosines: some thousand roundings of an `f64`,
+/// far below a millimetre at any range in a city.
+const RELATIVE_TOLERANCE: f64 = 1e-12;
+
+/// Whether a box has a point within `range` metres (Euclidean) of the eye.
+#[must_use]
+pub fn in_range(eye: DVec3, range: f64, target: &Box3d) -> bool {
+    within(target.distance_to_point(eye).powi(2), range)
+}
+
+/// Whether a squared distance is within `range`.
+fn within(distance_2: f64, range: f64) -> bool {
+    distance_2 <= range * range * (1.0 + RELATIVE_TOLERANCE)
+}

@@ -1,0 +1,27 @@
+//! The geometry of occlusion: boxes and fields of view, meshes and their envelopes, the umbra of
+//! one occluder, occlusion volumes along streets, and the view region they are cut to.
+//! Pure Rust: no PostgreSQL, no files, no clock. Metres in a right-handed frame with z up.
+#![forbid(unsafe_code)]
+
+mod box3d;
+mod city;
+mod field_of_view;
+mod mesh;
+mod shadow_region;
+mod umbra;
+mod view_region;
+mod volumes;
+
+pub use box3d::Box3d;
+pub use city::{BoxCity, scattered_city};
+pub use field_of_view::{ViewCone, ViewSector, in_range};
+pub use mesh::{
+    Closedness, GROUND_TOLERANCE, InnerEnvelope, MeshDefect, PolygonDefect, TriangleMesh,
+    inner_envelope, triangulate,
+};
+pub use shadow_region::ShadowRegion;
+pub use umbra::{OCCLUDER_MARGIN, Occluder, umbra_in_band};
+pub use view_region::{
+    Site, Street, ViewRegionOptions, footprint, open_space, streets_from_surfaces,
+};
+pub use volumes::{Block, OcclusionVolume, VolumeOptions, VolumeSolver};

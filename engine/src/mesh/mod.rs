@@ -1,0 +1,18 @@
+//! Triangle meshes: how polygons become triangles, whether a mesh bounds a solid, and the largest
+//! axis-aligned box inside it.
+
+mod certificate;
+mod clip;
+mod free_grid;
+mod growth;
+mod inner_envelope;
+mod mesh_defect;
+mod net;
+mod triangle_mesh;
+mod triangulate;
+mod winding_number;
+
+pub use inner_envelope::{GROUND_TOLERANCE, InnerEnvelope, inner_envelope};
+pub use mesh_defect::MeshDefect;
+pub use triangle_mesh::{Closedness, TriangleMesh};
+pub use triangulate::{PolygonDefect, triangulate};

@@ -1,0 +1,128 @@
+//! [`VolumeSolver`], which finds the occlusion volumes of one occludee at a time.
+
+use super::block::Block;
+use super::lanes::{Cover, LaneFiller, Shadow};
+use crate::{Box3d, Occluder, Street, umbra_in_band};
+use glam::DVec2;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+/// Length to width above which a block's lanes run along its length only.
+const LONG_BLOCK: f64 = 3.0;
+
+/// How finely to look for volumes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VolumeOptions {
+    /// Metres below which no lane is halved.
+    pub smallest: f64,
+    /// Square metres of street that each volume must add to what is already hidden.
+    pub worth: f64,
+    /// Metres beyond which nobody looks: eyes farther than this from the occludee are left out.
+    pub range: Option<f64>,
+}
+
+/// A box from all of which one feature hides another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OcclusionVolume {
+    /// The feature that hides.
+    pub occluder: i64,
+    /// The feature that is hidden.
+    pub occludee: i64,
+    /// Where, metres.
+    pub bounds: Box3d,
+}
+
+/// Occluders under a spatial index, and the blocks of street to look from.
+#[derive(Debug)]
+pub struct VolumeSolver {
+    occluders: Vec<Occluder>,
+    index: RTree<GeomWithData<Rectangle<[f64; 3]>, usize>>,
+    blocks: Vec<Block>,
+    options: VolumeOptions,
+}
+
+impl VolumeSolver {
+    /// Prepares a scene.
+    #[must_use]
+    pub fn new(occluders: Vec<Occluder>, streets: &[Street], options: VolumeOptions) -> Self {
+        let entries = occluders.iter().enumerate().map(|(position, occluder)| {
+            let Box3d { min, max } = occluder.bounds;
+            GeomWithData::new(Rectangle::from_corners(min.to_array(), max.to_array()), position)
+        });
+        Self {
+            index: RTree::bulk_load(entries.collect()),
+            blocks: Block::group(streets, options.smallest),
+            occluders,
+            options,
+        }
+    }
+
+    /// The volumes from which single occluders hide `envelope`, the outer envelope of the
+    /// feature `occludee`. `None` as soon as `cancelled` says so.
+    pub fn volumes(
+        &self,
+        occludee: i64,
+        envelope: &Box3d,
+        cancelled: impl Fn() -> bool,
+    ) -> Option<Vec<OcclusionVolume>> {
+        let mut found = Vec::new();
+        for block in self.blocks.iter().filter(|block| self.is_near(block, envelope)) {
+            if cancelled() {
+                return None;
+            }
+            let shadows = self.shadows(occludee, envelope, block);
+            let (axis, cover) = self.best_cover(block, &shadows);
+            found.extend(cover.pieces.iter().map(|piece| OcclusionVolume {
+                occluder: self.occluders[piece.occluder].feature,
+                occludee,
+                bounds: block.volume(axis, piece.lane, piece.span),
+            }));
+        }
+        Some(found)
+    }
+
+    /// Whether someone in the block may look at the envelope.
+    fn is_near(&self, block: &Block, envelope: &Box3d) -> bool {
+        self.options.range.is_none_or(|range| block.eyes().distance(envelope) <= range)
+    }
+
+    /// The shadows over a block: only occluders between it and the occludee can cast one.
+    fn shadows(&self, occludee: i64, envelope: &Box3d, block: &Block) -> Vec<Shadow> {
+        let mut between = envelope.union(&block.eyes());
+        // Grounded occluders hide below their own foot too.
+        between.max.z = f64::MAX;
+        let between = AABB::from_corners(between.min.to_array(), between.max.to_array());
+        self.index
+            .locate_in_envelope_intersecting(between)
+            .map(|entry| entry.data)
+            .filter(|&position| self.occluders[position].feature != occludee)
+            .filter_map(|position| {
+                let occluder = &self.occluders[position];
+                let region = umbra_in_band(occluder, envelope, block.band, block.window)?;
+                let [min, max] = region.rectangle();
+                let area = block.coverage.area(0, [min.y, max.y], [min.x, max.x]);
+                (area > self.options.worth).then_some(Shadow { occluder: position, region })
+            })
+            .collect()
+    }
+
+    /// Fills the block with lanes along the axis that serves best.
+    fn best_cover(&self, block: &Block, shadows: &[Shadow]) -> (usize, Cover) {
+        let shadows: Vec<&Shadow> = shadows.iter().collect();
+        let size: DVec2 = block.window[1] - block.window[0];
+        let worth = self.options.worth;
+        let along = |axis: usize| {
+            let filler = LaneFiller { block, axis, worth, smallest: self.options.smallest };
+            let across = 1 - axis;
+            filler.cover([block.window[0][across], block.window[1][across]], &shadows)
+        };
+        if size.x > size.y * LONG_BLOCK {
+            return (0, along(0));
+        }
+        if size.y > size.x * LONG_BLOCK {
+            return (1, along(1));
+        }
+        let (x, y) = (along(0), along(1));
+        if x.score(worth) >= y.score(worth) { (0, x) } else { (1, y) }
+    }
+}

@@ -1,0 +1,4 @@
+//! Index support.
+
+mod gist;
+mod split;

@@ -1,0 +1,10 @@
+//! The PostgreSQL extension `pg_occlusion`: types, their operators and index support, and the
+//! procedures on scenes, each a thin layer over the crate `engine`. The SQL that declares it all
+//! is written by hand in `sql/`; a function `f` here is the symbol `f_wrapper` there.
+
+mod error;
+mod index;
+mod scene;
+mod types;
+
+pgrx::pg_module_magic!();

@@ -1,0 +1,56 @@
+//! The table `street`.
+
+use super::{failed, polygon, quoted};
+use crate::error::Refusal;
+use engine::Street;
+use pgrx::{PgSqlErrorCode, Spi};
+
+/// All streets of a scene.
+pub fn read(scene: &str) -> Vec<Street> {
+    let query = format!("SELECT area::text[], eye_low, eye_high FROM {}.street", quoted(scene));
+    let rows = Spi::connect(|client| {
+        client
+            .select(&query, None, &[])?
+            .map(|row| {
+                Ok((
+                    row.get::<Vec<String>>(1)?.unwrap_or_default(),
+                    row.get::<f64>(2)?.unwrap_or_default(),
+                    row.get::<f64>(3)?.unwrap_or_default(),
+                ))
+            })
+            .collect::<Result<Vec<_>, pgrx::spi::Error>>()
+    });
+    rows.unwrap_or_else(|error| failed(&error))
+        .into_iter()
+        .map(|(rings, eye_low, eye_high)| match polygon::area(&rings) {
+            Some(area) => Street { area, eye_low, eye_high },
+            None => Refusal::new(
+                PgSqlErrorCode::ERRCODE_DATA_EXCEPTION,
+                format!("area of a street in scene \"{scene}\" is not a polygon"),
+            )
+            .raise(),
+        })
+        .collect()
+}
+
+/// Replaces all streets of a scene; returns how many there are now.
+pub fn replace(scene: &str, streets: &[Street]) -> i64 {
+    let scene = quoted(scene);
+    let insert = format!(
+        "INSERT INTO {scene}.street (name, area, eye_low, eye_high) VALUES ('open space', $1::polygon[], $2, $3)"
+    );
+    let done = Spi::connect_mut(|client| {
+        client.update(&format!("DELETE FROM {scene}.street"), None, &[])?;
+        for street in streets {
+            let area = polygon::area_text(&street.area);
+            client.update(
+                &insert,
+                None,
+                &[area.into(), street.eye_low.into(), street.eye_high.into()],
+            )?;
+        }
+        Ok::<_, pgrx::spi::Error>(())
+    });
+    done.unwrap_or_else(|error| failed(&error));
+    i64::try_from(streets.len()).unwrap_or(i64::MAX)
+}

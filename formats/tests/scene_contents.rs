@@ -1,0 +1,316 @@
+//! What a scene holds of each geometry type, hierarchy, template and appearance.
+
+mod common;
+
+use common::{BOX_SHELL, TRANSFORM, building, document, object};
+use formats::{SceneDescription, read_city_json};
+use serde_json::Value;
+
+fn read(text: &str) -> SceneDescription {
+    read_city_json("test.city.json", text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Surfaces of the only feature's only geometry, as numbers of vertices of each ring.
+fn ring_lengths(text: &str) -> Vec<Vec<usize>> {
+    let scene = read(text);
+    assert_eq!(
+        (scene.features.len(), scene.features[0].geometries.len()),
+        (1, 1)
+    );
+    let surfaces = &scene.features[0].geometries[0].surfaces;
+    surfaces
+        .iter()
+        .map(|surface| surface.rings.iter().map(Vec::len).collect())
+        .collect()
+}
+
+#[test]
+fn every_surface_type_gives_all_its_surfaces() {
+    let nested = |open: &str, close: &str| format!("{open}{BOX_SHELL},{BOX_SHELL}{close}");
+    let cases = [
+        ("MultiSurface", BOX_SHELL.to_owned(), 6),
+        ("CompositeSurface", BOX_SHELL.to_owned(), 6),
+        ("Solid", nested("[", "]"), 12),
+        (
+            "MultiSolid",
+            format!("[[{BOX_SHELL}],{}]", nested("[", "]")),
+            18,
+        ),
+        (
+            "CompositeSolid",
+            format!("[[{BOX_SHELL}],[{BOX_SHELL}]]"),
+            12,
+        ),
+    ];
+    for (kind, boundaries, surfaces) in cases {
+        let text = document(&object("a", "Building", kind, &boundaries));
+        assert_eq!(ring_lengths(&text), vec![vec![4]; surfaces], "{kind}");
+    }
+}
+
+#[test]
+fn points_and_lines_alone_are_skipped_and_beside_surfaces_ignored() {
+    let points = object("p", "GenericCityObject", "MultiPoint", "[0,1,2]");
+    let lines = object("l", "Road", "MultiLineString", "[[0,1,2],[4,5]]");
+    let none = r#""n":{"type":"Building"},"e":{"type":"Building","geometry":[]}"#;
+    let scene = read(&document(&[points, lines, none.to_owned()].join(",")));
+    assert!(scene.features.is_empty() && scene.streets.is_empty());
+    let skipped: Vec<_> = scene
+        .skipped
+        .iter()
+        .map(|s| (s.name.as_str(), s.why.as_str()))
+        .collect();
+    let (lines, nothing) = ("only points or lines", "no geometry");
+    assert_eq!(
+        skipped,
+        [("p", lines), ("l", lines), ("n", nothing), ("e", nothing)]
+    );
+    let both = format!(
+        r#""b":{{"type":"Building","geometry":[
+            {{"type":"MultiPoint","lod":"0","boundaries":[0]}},
+            {{"type":"MultiSurface","lod":1,"boundaries":{BOX_SHELL}}}]}}"#
+    );
+    assert_eq!(ring_lengths(&document(&both)).len(), 6);
+}
+
+#[test]
+fn holes_follow_their_outer_ring_and_closing_vertices_go() {
+    let with_hole = "[[[0,1,2,3,0],[4,5,6,4]],[[4,5,6,7],[0,1],[0,1,2]]]";
+    let text = document(&object("a", "Bridge", "MultiSurface", with_hole));
+    assert_eq!(ring_lengths(&text), [vec![4, 3], vec![4, 3]]);
+    assert_eq!(read(&text).degenerate_rings, 1);
+}
+
+#[test]
+fn positions_are_scaled_and_moved_to_the_same_bits_wherever_used() {
+    let scene = read(&document(&building("a")));
+    let surfaces = &scene.features[0].geometries[0].surfaces;
+    let expected = [
+        2000.0 * 0.001 + 85000.0,
+        3000.0 * 0.001 + 447000.0,
+        4000.0 * 0.001 - 1.5,
+    ];
+    let corner = expected.map(f64::to_bits);
+    let positions = surfaces.iter().flat_map(|surface| &surface.rings).flatten();
+    let uses = positions
+        .filter(|position| position.map(f64::to_bits) == corner)
+        .count();
+    assert_eq!(uses, 3);
+}
+
+#[test]
+fn classes_become_features_streets_and_terrain() {
+    let square = "[[[0,1,2,3]]]";
+    let classes = [
+        "Road",
+        "TransportSquare",
+        "TINRelief",
+        "Railway",
+        "+NoiseBarrier",
+        "WaterBody",
+    ];
+    let objects = classes.map(|class| object(class, class, "CompositeSurface", square));
+    let scene = read(&document(&objects.join(",")));
+    let names = |list: Vec<&String>| list.into_iter().cloned().collect::<Vec<_>>();
+    let features = names(scene.features.iter().map(|f| &f.class).collect());
+    assert_eq!(features, ["Railway", "+NoiseBarrier", "WaterBody"]);
+    assert_eq!(
+        names(scene.streets.iter().map(|s| &s.class).collect()),
+        classes[..2]
+    );
+    assert_eq!(
+        (
+            scene.skipped[0].name.as_str(),
+            scene.skipped[0].why.as_str()
+        ),
+        (classes[2], "terrain")
+    );
+}
+
+#[test]
+fn a_street_has_the_surfaces_of_its_highest_level_of_detail() {
+    let road = r#""r":{"type":"Road","geometry":[
+        {"type":"MultiSurface","lod":"1","boundaries":[[[0,1,2,3]]]},
+        {"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2]],[[0,2,3]]]},
+        {"type":"MultiSurface","lod":"0","boundaries":[[[4,5,6,7]]]}]}"#;
+    let surfaces = &read(&document(road)).streets[0].surfaces;
+    assert_eq!(
+        surfaces
+            .iter()
+            .map(|s| s.rings[0].len())
+            .collect::<Vec<_>>(),
+        [3, 3]
+    );
+}
+
+#[test]
+fn descendants_are_merged_into_their_root_with_the_part_named() {
+    let part = |id: &str, parent: &str, more: &str, surface: &str| {
+        format!(
+            r#""{id}":{{"type":"BuildingPart","parents":["{parent}"],{more}"attributes":{{"x":1}},
+            "geometry":[{{"type":"MultiSurface","lod":"2.2","boundaries":[{surface}]}}]}}"#
+        )
+    };
+    let objects = [
+        r#""root":{"type":"Building","attributes":{"z":2,"a":[1e3,null]},"children":["one"]}"#
+            .into(),
+        part("two", "one", "", "[[4,5,6,7]]"),
+        part("one", "root", r#""children":["two"],"#, "[[0,1,2,3]]"),
+        building("other"),
+    ];
+    let scene = read(&document(&objects.join(",")));
+    assert_eq!(scene.features.len(), 2);
+    let feature = &scene.features[0];
+    assert_eq!(
+        (feature.name.as_str(), feature.class.as_str()),
+        ("root", "Building")
+    );
+    assert_eq!(
+        feature.attributes.to_string(),
+        r#"{"z":2,"a":[1000.0,null]}"#
+    );
+    let parts: Vec<_> = feature
+        .geometries
+        .iter()
+        .map(|g| (g.part.as_str(), g.level_of_detail))
+        .collect();
+    assert_eq!(parts, [("one", 2.2), ("two", 2.2)]);
+    let source: Value = serde_json::from_str(&feature.source).unwrap();
+    let names: Vec<_> = source["CityObjects"].as_object().unwrap().keys().collect();
+    assert_eq!(names, ["root", "one", "two"]);
+    assert_eq!(
+        source["CityObjects"]["two"]["parents"],
+        serde_json::json!(["one"])
+    );
+    assert_eq!(source["vertices"].as_array().unwrap().len(), 8);
+}
+
+/// A tree of one triangle, placed by a matrix at vertex 6 of the box.
+fn tree_document(matrix: &str, appearance: &str) -> String {
+    let tree = format!(
+        r#""t":{{"type":"SolitaryVegetationObject","geometry":[{{"type":"GeometryInstance",
+        "template":1,"boundaries":[6],"transformationMatrix":{matrix}}}]}}"#
+    );
+    let mut text = document(&[building("b"), tree].join(","));
+    text.pop();
+    text + r#","geometry-templates":{"vertices-templates":[[9.5,0,0],[1.5,0,0],[0,2.5,0],[0,0,3.5]],
+        "templates":[{"type":"MultiPoint","lod":"0","boundaries":[0]},
+        {"type":"MultiSurface","lod":"3","boundaries":[[[1,2,3]]],
+        "material":{"m":{"value":2}}}]}"#
+        + appearance
+        + "}"
+}
+
+#[test]
+fn templates_are_placed_by_matrix_and_anchor_in_metres() {
+    let scene = read(&tree_document("[2,0,0,10, 0,1,0,0, 0,0,1,0, 0,0,0,1]", ""));
+    let geometry = &scene.features[1].geometries[0];
+    assert_eq!(
+        (geometry.part.as_str(), geometry.level_of_detail),
+        ("t", 3.0)
+    );
+    let [x, y, z] = [85002.0, 447003.0, 2.5];
+    let expected = [
+        [x + 13.0, y, z],
+        [x + 10.0, y + 2.5, z],
+        [x + 10.0, y, z + 3.5],
+    ];
+    assert_eq!(geometry.surfaces[0].rings, [expected.to_vec()]);
+}
+
+#[test]
+fn mirrored_templates_keep_their_outside_outside() {
+    let scene = read(&tree_document("[1,0,0,0, 0,1,0,0, 0,0,-1,0, 0,0,0,1]", ""));
+    let ring = &scene.features[1].geometries[0].surfaces[0].rings[0];
+    assert_eq!(
+        ring[0],
+        [85002.0, 447003.0, 2.5 - 3.5],
+        "the last vertex comes first"
+    );
+}
+
+#[test]
+fn a_source_carries_only_the_template_and_material_it_uses() {
+    let appearance = r#","appearance":{"materials":[{"name":"a"},{"name":"b"},{"name":"c"}]}"#;
+    let identity = "[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]";
+    let scene = read(&tree_document(identity, appearance));
+    let source: Value = serde_json::from_str(&scene.features[1].source).unwrap();
+    let template = &source["geometry-templates"]["templates"][0];
+    assert_eq!(template["boundaries"], serde_json::json!([[[0, 1, 2]]]));
+    assert_eq!(template["material"]["m"]["value"], 0);
+    assert_eq!(
+        source["geometry-templates"]["vertices-templates"]
+            .as_array()
+            .unwrap()
+            .len(),
+        3
+    );
+    assert_eq!(
+        source["appearance"]["materials"],
+        serde_json::json!([{"name": "c"}])
+    );
+    assert_eq!(source["vertices"], serde_json::json!([[2000, 3000, 4000]]));
+    let again = read(&scene.features[1].source);
+    assert_eq!(again.features[0], scene.features[1]);
+}
+
+#[test]
+fn textures_are_renumbered_and_broken_materials_dropped() {
+    let textured = r#""a":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2",
+        "boundaries":[[[0,1,2]],[[4,5,6]]],"semantics":{"values":[0,null],"surfaces":[{"type":"RoofSurface"}]},
+        "texture":{"rgb":{"values":[[[1,3,2,1]],[[null]]]}},
+        "material":{"m":{"values":[1,2]}}}]}"#;
+    let mut text = document(textured);
+    text.pop();
+    text += r#","appearance":{"materials":[{"name":"a"},{"name":"b"}],"textures":[{"type":"PNG","image":"a"},{"type":"PNG","image":"b"}],
+        "vertices-texture":[[0.1,0],[0.2,0],[0.3,0],[0.4,0]],"default-theme-texture":"rgb"}}"#;
+    let source: Value = serde_json::from_str(&read(&text).features[0].source).unwrap();
+    let geometry = &source["CityObjects"]["a"]["geometry"][0];
+    assert_eq!(
+        geometry["texture"]["rgb"]["values"].to_string(),
+        "[[[0,0,1,2]],[[null]]]"
+    );
+    assert_eq!(geometry["semantics"]["surfaces"][0]["type"], "RoofSurface");
+    assert_eq!(geometry.get("material"), None, "material 2 of 2");
+    let appearance = &source["appearance"];
+    assert_eq!(appearance["materials"].to_string(), "[]");
+    assert_eq!(
+        appearance["textures"].to_string(),
+        r#"[{"type":"PNG","image":"b"}]"#
+    );
+    assert_eq!(
+        appearance["vertices-texture"].to_string(),
+        "[[0.4,0],[0.3,0],[0.2,0]]"
+    );
+    assert_eq!(appearance["default-theme-texture"], "rgb");
+}
+
+#[test]
+fn sequences_take_byte_order_marks_blank_lines_and_carriage_returns() {
+    let header = format!(
+        r#"{{"type":"CityJSON","version":"1.1","transform":{TRANSFORM},"CityObjects":{{}},"vertices":[]}}"#
+    );
+    let line = |id: &str| {
+        let square = object(id, "Building", "MultiSurface", "[[[0,1,2]]]");
+        let vertices = "[[0,0,0],[1000,0,0],[0,1000,0]]";
+        format!(
+            r#"{{"type":"CityJSONFeature","id":"{id}","CityObjects":{{{square}}},"vertices":{vertices}}}"#
+        )
+    };
+    let text = format!(
+        "\u{feff}{header}\r\n\r\n{}\r\n  \r\n{}",
+        line("a"),
+        line("b")
+    );
+    let scene = read(&text);
+    assert_eq!(
+        scene
+            .features
+            .iter()
+            .map(|f| f.name.as_str())
+            .collect::<Vec<_>>(),
+        ["a", "b"]
+    );
+    let header_only = read(&header);
+    assert_eq!(header_only, SceneDescription::default());
+}

@@ -1,0 +1,312 @@
+-- Scenes: a schema of ordinary tables for each city.
+
+-- What every scene holds: the tables and the columns that functions read, with their types.
+CREATE FUNCTION occlusion.scene_columns()
+RETURNS TABLE (table_name name, column_name name, type_name text)
+LANGUAGE sql IMMUTABLE PARALLEL SAFE
+SET search_path = pg_catalog, pg_temp AS $$
+    VALUES
+        ('scene_info', 'format_version', 'integer'),
+        ('scene_info', 'srid', 'integer'),
+        ('feature', 'id', 'bigint'),
+        ('feature', 'class', 'text'),
+        ('feature', 'envelope', 'occlusion.box3d'),
+        ('mesh', 'feature', 'bigint'),
+        ('mesh', 'vertices', 'double precision[]'),
+        ('mesh', 'triangles', 'integer[]'),
+        ('model', 'feature', 'bigint'),
+        ('inner_envelope', 'feature', 'bigint'),
+        ('inner_envelope', 'box', 'occlusion.box3d'),
+        ('inner_envelope', 'grounded', 'boolean'),
+        ('street', 'area', 'polygon[]'),
+        ('street', 'eye_low', 'double precision'),
+        ('street', 'eye_high', 'double precision'),
+        ('street', 'envelope', 'occlusion.box3d'),
+        ('occlusion_volume', 'occluder', 'bigint'),
+        ('occlusion_volume', 'occludee', 'bigint'),
+        ('occlusion_volume', 'box', 'occlusion.box3d'),
+        ('job', 'task', 'text')
+$$;
+COMMENT ON FUNCTION occlusion.scene_columns() IS 'the tables of a scene and the columns that functions read';
+
+-- Raises an error unless the schema is a scene made of real tables. Functions call it before they
+-- read a scene, so that no view, foreign table or type of somebody else's making runs in its place.
+CREATE FUNCTION occlusion.require_scene(scene text) RETURNS void
+LANGUAGE plpgsql STABLE STRICT PARALLEL SAFE
+SET search_path = pg_catalog, pg_temp AS $$
+DECLARE
+    namespace oid;
+    wrong record;
+BEGIN
+    IF octet_length(scene) > 63 THEN
+        RAISE EXCEPTION 'scene name "%" is too long', scene
+            USING ERRCODE = 'name_too_long',
+                  DETAIL = format('The name has %s bytes; at most 63 are allowed.', octet_length(scene));
+    END IF;
+    SELECT n.oid INTO namespace FROM pg_catalog.pg_namespace AS n WHERE n.nspname = scene;
+    IF namespace IS NULL THEN
+        RAISE EXCEPTION 'scene "%" does not exist', scene
+            USING ERRCODE = 'invalid_schema_name',
+                  HINT = format('Make it with SELECT occlusion.create_scene(%L).', scene);
+    END IF;
+    IF NOT EXISTS (SELECT FROM pg_catalog.pg_class AS c
+                   WHERE c.relnamespace = namespace AND c.relname = 'scene_info') THEN
+        RAISE EXCEPTION 'schema "%" is not a scene', scene
+            USING ERRCODE = 'wrong_object_type',
+                  DETAIL = 'It has no table scene_info.',
+                  HINT = 'A scene is made by occlusion.create_scene.';
+    END IF;
+    SELECT e.table_name, e.column_name, e.type_name, c.relkind,
+           format_type(a.atttypid, a.atttypmod) AS found
+      INTO wrong
+      FROM occlusion.scene_columns() AS e
+      LEFT JOIN pg_catalog.pg_class AS c ON c.relnamespace = namespace AND c.relname = e.table_name
+      LEFT JOIN pg_catalog.pg_attribute AS a
+             ON a.attrelid = c.oid AND a.attname = e.column_name AND NOT a.attisdropped
+     WHERE c.relkind IS NULL OR c.relkind NOT IN ('r', 'p')
+        OR format_type(a.atttypid, a.atttypmod) IS DISTINCT FROM e.type_name
+     LIMIT 1;
+    IF FOUND THEN
+        RAISE EXCEPTION 'scene "%" is damaged', scene
+            USING ERRCODE = 'wrong_object_type',
+                  DETAIL = CASE
+                      WHEN wrong.relkind IS NULL THEN
+                          format('Table "%s" is missing.', wrong.table_name)
+                      WHEN wrong.relkind NOT IN ('r', 'p') THEN
+                          format('"%s" is not a table.', wrong.table_name)
+                      ELSE format('Column "%s" of table "%s" must be of type %s, not %s.',
+                                  wrong.column_name, wrong.table_name, wrong.type_name,
+                                  coalesce(wrong.found, 'missing'))
+                  END,
+                  HINT = 'Only real tables of a scene are read, never views in their place.';
+    END IF;
+END
+$$;
+COMMENT ON FUNCTION occlusion.require_scene(text) IS 'raises an error unless a schema is a scene of real tables';
+
+CREATE FUNCTION occlusion.create_scene(scene text, srid integer DEFAULT 0) RETURNS void
+LANGUAGE plpgsql VOLATILE STRICT
+SET search_path = pg_catalog, pg_temp AS $$
+DECLARE
+    s text := quote_ident(scene);
+BEGIN
+    IF octet_length(scene) > 63 THEN
+        RAISE EXCEPTION 'scene name "%" is too long', scene
+            USING ERRCODE = 'name_too_long',
+                  DETAIL = format('The name has %s bytes; at most 63 are allowed.', octet_length(scene));
+    END IF;
+    IF EXISTS (SELECT FROM pg_catalog.pg_namespace AS n WHERE n.nspname = scene) THEN
+        RAISE EXCEPTION 'schema "%" already exists', scene
+            USING ERRCODE = 'duplicate_schema',
+                  HINT = format('If it is a scene, SELECT occlusion.drop_scene(%L) removes it.', scene);
+    END IF;
+    EXECUTE format('CREATE SCHEMA %s', s);
+    EXECUTE format('COMMENT ON SCHEMA %s IS %L', s, 'a scene of pg_occlusion');
+
+    EXECUTE format($ddl$
+        CREATE TABLE %1$s.scene_info (
+            singleton boolean PRIMARY KEY DEFAULT true CHECK (singleton),
+            format_version integer NOT NULL,
+            srid integer NOT NULL,
+            ground float8
+        );
+        COMMENT ON TABLE %1$s.scene_info IS 'one row; marks this schema as a scene';
+        COMMENT ON COLUMN %1$s.scene_info.singleton IS 'keeps it one row';
+        COMMENT ON COLUMN %1$s.scene_info.format_version IS 'version of the layout of these tables';
+        COMMENT ON COLUMN %1$s.scene_info.srid IS 'EPSG code of the projected frame, 0 if unknown';
+        COMMENT ON COLUMN %1$s.scene_info.ground IS 'height of level ground in metres; NULL: from the feet of near features';
+        INSERT INTO %1$s.scene_info (format_version, srid) VALUES (1, %2$s);
+
+        CREATE TABLE %1$s.feature (
+            id bigint GENERATED BY DEFAULT AS IDENTITY PRIMARY KEY,
+            name text UNIQUE,
+            class text NOT NULL DEFAULT 'Generic',
+            envelope occlusion.box3d NOT NULL,
+            slot integer,
+            attributes jsonb
+        );
+        CREATE INDEX feature_envelope ON %1$s.feature USING gist (envelope);
+        COMMENT ON TABLE %1$s.feature IS 'one indivisible city object a row';
+        COMMENT ON COLUMN %1$s.feature.id IS 'number of the feature';
+        COMMENT ON COLUMN %1$s.feature.name IS 'identifier in the source';
+        COMMENT ON COLUMN %1$s.feature.class IS 'kind of object, as the source names it';
+        COMMENT ON COLUMN %1$s.feature.envelope IS 'outer envelope: smallest box that holds all of the feature, every level of detail';
+        COMMENT ON COLUMN %1$s.feature.slot IS 'position along a space-filling order; internal';
+        COMMENT ON COLUMN %1$s.feature.attributes IS 'attributes of the source';
+
+        CREATE TABLE %1$s.model (
+            feature bigint NOT NULL REFERENCES %1$s.feature ON DELETE CASCADE,
+            level_of_detail text NOT NULL,
+            format text NOT NULL,
+            content bytea NOT NULL,
+            geometric_error float8,
+            PRIMARY KEY (feature, level_of_detail, format)
+        );
+        COMMENT ON TABLE %1$s.model IS 'models of features, as delivered';
+        COMMENT ON COLUMN %1$s.model.feature IS 'feature that it shows';
+        COMMENT ON COLUMN %1$s.model.level_of_detail IS 'level of detail, or "all" for a source that holds several';
+        COMMENT ON COLUMN %1$s.model.format IS 'file format, such as cityjson';
+        COMMENT ON COLUMN %1$s.model.content IS 'the model itself';
+        COMMENT ON COLUMN %1$s.model.geometric_error IS 'greatest distance to the true surface in metres, if known';
+
+        CREATE TABLE %1$s.mesh (
+            feature bigint PRIMARY KEY REFERENCES %1$s.feature ON DELETE CASCADE,
+            level_of_detail text,
+            vertices float8[] NOT NULL,
+            triangles integer[] NOT NULL,
+            defect text
+        );
+        COMMENT ON TABLE %1$s.mesh IS 'truth: the triangles of the best level of detail of each feature';
+        COMMENT ON COLUMN %1$s.mesh.feature IS 'feature whose surface it is';
+        COMMENT ON COLUMN %1$s.mesh.level_of_detail IS 'level of detail that was triangulated';
+        COMMENT ON COLUMN %1$s.mesh.vertices IS 'x, y, z of vertex 0, of vertex 1, and so on, metres';
+        COMMENT ON COLUMN %1$s.mesh.triangles IS 'three vertices a triangle, counted from 0, anticlockwise seen from outside';
+        COMMENT ON COLUMN %1$s.mesh.defect IS 'why the mesh encloses no solid and so hides nothing; NULL if it does';
+
+        CREATE TABLE %1$s.inner_envelope (
+            feature bigint PRIMARY KEY REFERENCES %1$s.feature ON DELETE CASCADE,
+            box occlusion.box3d NOT NULL,
+            grounded boolean NOT NULL DEFAULT false
+        );
+        CREATE INDEX inner_envelope_box ON %1$s.inner_envelope USING gist (box);
+        COMMENT ON TABLE %1$s.inner_envelope IS 'what hides: the largest box found wholly inside each solid feature';
+        COMMENT ON COLUMN %1$s.inner_envelope.feature IS 'feature that it is part of';
+        COMMENT ON COLUMN %1$s.inner_envelope.box IS 'box inside the solid, metres';
+        COMMENT ON COLUMN %1$s.inner_envelope.grounded IS 'whether the ground under the box is solid down to any depth';
+
+        CREATE TABLE %1$s.street (
+            id bigint GENERATED BY DEFAULT AS IDENTITY PRIMARY KEY,
+            name text,
+            area polygon[] NOT NULL CHECK (cardinality(area) > 0),
+            eye_low float8 NOT NULL,
+            eye_high float8 NOT NULL CHECK (eye_low <= eye_high),
+            envelope occlusion.box3d NOT NULL GENERATED ALWAYS AS (occlusion.box3d(
+                occlusion.point3d(((box(area[1]))[1])[0], ((box(area[1]))[1])[1], eye_low),
+                occlusion.point3d(((box(area[1]))[0])[0], ((box(area[1]))[0])[1], eye_high)
+            )) STORED
+        );
+        CREATE INDEX street_envelope ON %1$s.street USING gist (envelope);
+        COMMENT ON TABLE %1$s.street IS 'view region: where observers can be';
+        COMMENT ON COLUMN %1$s.street.id IS 'number of the street';
+        COMMENT ON COLUMN %1$s.street.name IS 'identifier in the source';
+        COMMENT ON COLUMN %1$s.street.area IS 'outer ring, then holes';
+        COMMENT ON COLUMN %1$s.street.eye_low IS 'lowest eye, absolute height in metres';
+        COMMENT ON COLUMN %1$s.street.eye_high IS 'highest eye, absolute height in metres';
+        COMMENT ON COLUMN %1$s.street.envelope IS 'box around all its eyes; derived';
+
+        CREATE TABLE %1$s.occlusion_volume (
+            occluder bigint NOT NULL REFERENCES %1$s.feature ON DELETE CASCADE,
+            occludee bigint NOT NULL REFERENCES %1$s.feature ON DELETE CASCADE,
+            box occlusion.box3d NOT NULL,
+            CHECK (occluder <> occludee)
+        );
+        CREATE INDEX occlusion_volume_box ON %1$s.occlusion_volume USING gist (box);
+        CREATE INDEX occlusion_volume_occluder ON %1$s.occlusion_volume (occluder);
+        CREATE INDEX occlusion_volume_occludee ON %1$s.occlusion_volume (occludee);
+        COMMENT ON TABLE %1$s.occlusion_volume IS 'from everywhere in the box, occluder alone hides all of occludee';
+        COMMENT ON COLUMN %1$s.occlusion_volume.occluder IS 'feature that hides';
+        COMMENT ON COLUMN %1$s.occlusion_volume.occludee IS 'feature that is hidden';
+        COMMENT ON COLUMN %1$s.occlusion_volume.box IS 'eyes from which it is hidden, metres';
+
+        CREATE TABLE %1$s.job (
+            task text PRIMARY KEY,
+            backend integer NOT NULL,
+            started timestamptz NOT NULL,
+            updated timestamptz NOT NULL,
+            done bigint NOT NULL,
+            total bigint NOT NULL,
+            made bigint NOT NULL,
+            finished boolean NOT NULL
+        );
+        COMMENT ON TABLE %1$s.job IS 'long work on this scene and how far it is';
+        COMMENT ON COLUMN %1$s.job.task IS 'procedure';
+        COMMENT ON COLUMN %1$s.job.backend IS 'process that runs or ran it';
+        COMMENT ON COLUMN %1$s.job.started IS 'when it began';
+        COMMENT ON COLUMN %1$s.job.updated IS 'when it last committed a batch';
+        COMMENT ON COLUMN %1$s.job.done IS 'features finished';
+        COMMENT ON COLUMN %1$s.job.total IS 'features in all';
+        COMMENT ON COLUMN %1$s.job.made IS 'rows written';
+        COMMENT ON COLUMN %1$s.job.finished IS 'whether it came to its end';
+
+        CREATE TRIGGER forget_volumes AFTER UPDATE ON %1$s.feature
+            FOR EACH ROW EXECUTE FUNCTION occlusion.forget_feature_volumes();
+        CREATE TRIGGER forget_volumes AFTER UPDATE OR DELETE ON %1$s.inner_envelope
+            FOR EACH ROW EXECUTE FUNCTION occlusion.forget_occluder_volumes();
+        CREATE TRIGGER forget_all_volumes AFTER TRUNCATE ON %1$s.inner_envelope
+            FOR EACH STATEMENT EXECUTE FUNCTION occlusion.forget_all_volumes();
+        ALTER TABLE %1$s.feature ENABLE ALWAYS TRIGGER forget_volumes;
+        ALTER TABLE %1$s.inner_envelope ENABLE ALWAYS TRIGGER forget_volumes;
+        ALTER TABLE %1$s.inner_envelope ENABLE ALWAYS TRIGGER forget_all_volumes;
+    $ddl$, s, srid);
+END
+$$;
+COMMENT ON FUNCTION occlusion.create_scene(text, integer) IS
+    'makes a scene: a schema of that name with the tables of one city';
+
+-- Volumes cast by or on a feature whose envelope changed say nothing any more.
+CREATE FUNCTION occlusion.forget_feature_volumes() RETURNS trigger
+LANGUAGE plpgsql SET search_path = pg_catalog, pg_temp AS $$
+BEGIN
+    IF OLD.envelope OPERATOR(occlusion.=) NEW.envelope THEN
+        RETURN NULL;
+    END IF;
+    EXECUTE format('DELETE FROM %I.occlusion_volume WHERE occluder = $1 OR occludee = $1', TG_TABLE_SCHEMA)
+        USING OLD.id;
+    RETURN NULL;
+END
+$$;
+COMMENT ON FUNCTION occlusion.forget_feature_volumes() IS 'trigger: drops the volumes of a feature that moved';
+
+CREATE FUNCTION occlusion.forget_occluder_volumes() RETURNS trigger
+LANGUAGE plpgsql SET search_path = pg_catalog, pg_temp AS $$
+BEGIN
+    EXECUTE format('DELETE FROM %I.occlusion_volume WHERE occluder = $1', TG_TABLE_SCHEMA)
+        USING OLD.feature;
+    RETURN NULL;
+END
+$$;
+COMMENT ON FUNCTION occlusion.forget_occluder_volumes() IS 'trigger: drops the volumes cast by a box that changed';
+
+CREATE FUNCTION occlusion.forget_all_volumes() RETURNS trigger
+LANGUAGE plpgsql SET search_path = pg_catalog, pg_temp AS $$
+BEGIN
+    EXECUTE format('DELETE FROM %I.occlusion_volume', TG_TABLE_SCHEMA);
+    RETURN NULL;
+END
+$$;
+COMMENT ON FUNCTION occlusion.forget_all_volumes() IS 'trigger: drops all volumes of a scene';
+
+CREATE FUNCTION occlusion.drop_scene(scene text, force boolean DEFAULT false) RETURNS void
+LANGUAGE plpgsql VOLATILE STRICT
+SET search_path = pg_catalog, pg_temp AS $$
+DECLARE
+    tables text;
+    reason text;
+BEGIN
+    IF NOT force THEN
+        PERFORM occlusion.require_scene(scene);
+        SELECT string_agg(DISTINCT format('%I.%I', scene, table_name), ', ') INTO tables
+          FROM occlusion.scene_columns();
+        -- RESTRICT stops at every object of another's making, in the schema or outside it.
+        BEGIN
+            EXECUTE format('DROP TABLE %s RESTRICT', tables);
+            EXECUTE format('DROP SCHEMA %I RESTRICT', scene);
+        EXCEPTION WHEN dependent_objects_still_exist THEN
+            GET STACKED DIAGNOSTICS reason = PG_EXCEPTION_DETAIL;
+            RAISE EXCEPTION 'scene "%" holds objects that are not part of it', scene
+                USING ERRCODE = 'dependent_objects_still_exist',
+                      DETAIL = reason,
+                      HINT = 'Move them, or drop everything with force => true.';
+        END;
+        RETURN;
+    END IF;
+    IF NOT EXISTS (SELECT FROM pg_catalog.pg_class AS c
+                   JOIN pg_catalog.pg_namespace AS n ON n.oid = c.relnamespace
+                   WHERE n.nspname = scene AND c.relname = 'scene_info' AND c.relkind IN ('r', 'p')) THEN
+        PERFORM occlusion.require_scene(scene);
+    END IF;
+    EXECUTE format('DROP SCHEMA %I CASCADE', scene);
+END
+$$;
+COMMENT ON FUNCTION occlusion.drop_scene(text, boolean) IS
+    'drops a scene; refuses a schema that is none, and one with foreign objects unless forced';

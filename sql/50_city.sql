@@ -1,0 +1,69 @@
+-- Making scenes without files, and their view region.
+
+CREATE FUNCTION occlusion.make_city(layout text, features integer, seed bigint)
+RETURNS TABLE (number integer, envelope occlusion.box3d, vertices float8[], triangles integer[])
+LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'make_city_wrapper';
+COMMENT ON FUNCTION occlusion.make_city(text, integer, bigint) IS
+    'the features of a generated city: their boxes, and the same boxes as closed meshes';
+
+CREATE FUNCTION occlusion.make_city_streets(layout text)
+RETURNS TABLE (area text[], eye_low float8, eye_high float8)
+LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'make_city_streets_wrapper';
+COMMENT ON FUNCTION occlusion.make_city_streets(text) IS 'the streets of a generated city, rings as text';
+
+CREATE FUNCTION occlusion.generate_city(scene text, layout text DEFAULT 'scattered',
+                                        features integer DEFAULT 326, seed integer DEFAULT 1)
+RETURNS bigint
+LANGUAGE plpgsql VOLATILE STRICT
+SET search_path = pg_catalog, pg_temp AS $$
+DECLARE
+    occupied boolean;
+    made bigint;
+BEGIN
+    IF NOT EXISTS (SELECT FROM pg_catalog.pg_namespace AS n WHERE n.nspname = scene) THEN
+        PERFORM occlusion.create_scene(scene);
+    END IF;
+    PERFORM occlusion.require_scene(scene);
+    EXECUTE format('SELECT EXISTS (SELECT FROM %1$I.feature) OR EXISTS (SELECT FROM %1$I.street)', scene)
+        INTO occupied;
+    IF occupied THEN
+        RAISE EXCEPTION 'scene "%" is not empty', scene
+            USING ERRCODE = 'object_not_in_prerequisite_state',
+                  HINT = 'Generate into a new scene.';
+    END IF;
+    EXECUTE format($q$
+        WITH city AS MATERIALIZED (SELECT * FROM occlusion.make_city($1, $2, $3)),
+        feature AS (
+            INSERT INTO %1$I.feature (id, name, class, envelope)
+            SELECT c.number, 'box ' || c.number, 'Building', c.envelope FROM city AS c
+            RETURNING id
+        ),
+        mesh AS (
+            INSERT INTO %1$I.mesh (feature, level_of_detail, vertices, triangles)
+            SELECT c.number, '1', c.vertices, c.triangles FROM city AS c
+        ),
+        inner_envelope AS (
+            INSERT INTO %1$I.inner_envelope (feature, box, grounded)
+            SELECT c.number, c.envelope, true FROM city AS c
+        ),
+        street AS (
+            INSERT INTO %1$I.street (name, area, eye_low, eye_high)
+            SELECT 'street', s.area::polygon[], s.eye_low, s.eye_high
+            FROM occlusion.make_city_streets($1) AS s
+        )
+        SELECT count(*) FROM feature
+    $q$, scene) INTO made USING layout, features, seed::bigint;
+    EXECUTE format('SELECT pg_catalog.setval(pg_catalog.pg_get_serial_sequence(%L, %L), greatest($1, 1))',
+                   format('%I.feature', scene), 'id') USING made;
+    RETURN made;
+END
+$$;
+COMMENT ON FUNCTION occlusion.generate_city(text, text, integer, integer) IS
+    'fills a new scene with a generated city; layout scattered is that of the 2004 report; returns the number of features';
+
+CREATE FUNCTION occlusion.generate_view_region(scene text, eye_low float8 DEFAULT 1.5,
+                                               eye_high float8 DEFAULT 2.0, tile float8 DEFAULT 50)
+RETURNS bigint
+LANGUAGE c VOLATILE STRICT AS 'MODULE_PATHNAME', 'generate_view_region_wrapper';
+COMMENT ON FUNCTION occlusion.generate_view_region(text, float8, float8, float8) IS
+    'replaces the streets of a scene by the open space between its features: inside their hull, outside every footprint; eye heights in metres above the feet of near features; returns the number of streets';

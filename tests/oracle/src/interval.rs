@@ -1,0 +1,155 @@
+//! Intervals with outward rounding: the certified filter in front of rational arithmetic.
+
+use std::cmp::Ordering;
+
+use crate::number::Number;
+
+/// An interval `[lo, hi]` that holds the exact value.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Interval {
+    pub(crate) lo: f64,
+    pub(crate) hi: f64,
+}
+
+impl Interval {
+    const ENTIRE: Self = Self {
+        lo: f64::NEG_INFINITY,
+        hi: f64::INFINITY,
+    };
+
+    /// The interval around results that were rounded to nearest: one step outward on each side.
+    pub(crate) fn outward(lo: f64, hi: f64) -> Self {
+        // NaN stems from an overflow, so nothing is known.
+        if lo.is_nan() || hi.is_nan() {
+            return Self::ENTIRE;
+        }
+        Self {
+            lo: lo.next_down(),
+            hi: hi.next_up(),
+        }
+    }
+
+    /// The difference of two exact numbers.
+    pub(crate) fn difference(a: f64, b: f64) -> Self {
+        Self::outward(a - b, a - b)
+    }
+
+    /// The quotient, where `divisor` does not hold zero; everything where it does.
+    pub(crate) fn divide(self, divisor: Self) -> Self {
+        if divisor.lo <= 0.0 && divisor.hi >= 0.0 {
+            return Self::ENTIRE;
+        }
+        hull([
+            self.lo / divisor.lo,
+            self.lo / divisor.hi,
+            self.hi / divisor.lo,
+            self.hi / divisor.hi,
+        ])
+    }
+}
+
+impl Number for Interval {
+    fn from_f64(value: f64) -> Self {
+        Self {
+            lo: value,
+            hi: value,
+        }
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        Self::outward(self.lo + other.lo, self.hi + other.hi)
+    }
+
+    fn minus(&self, other: &Self) -> Self {
+        Self::outward(self.lo - other.hi, self.hi - other.lo)
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        hull([
+            self.lo * other.lo,
+            self.lo * other.hi,
+            self.hi * other.lo,
+            self.hi * other.hi,
+        ])
+    }
+
+    fn compare(&self, other: &Self) -> Option<Ordering> {
+        if self.hi < other.lo {
+            Some(Ordering::Less)
+        } else if self.lo > other.hi {
+            Some(Ordering::Greater)
+        } else {
+            None
+        }
+    }
+
+    fn smaller(&self, other: &Self) -> Self {
+        Self {
+            lo: self.lo.min(other.lo),
+            hi: self.hi.min(other.hi),
+        }
+    }
+
+    fn larger(&self, other: &Self) -> Self {
+        Self {
+            lo: self.lo.max(other.lo),
+            hi: self.hi.max(other.hi),
+        }
+    }
+}
+
+/// The outward hull of four rounded results, everything if one of them is NaN.
+fn hull(values: [f64; 4]) -> Interval {
+    // f64::min and f64::max would pass over a NaN.
+    if values.iter().any(|value| value.is_nan()) {
+        return Interval::ENTIRE;
+    }
+    let lo = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let hi = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    Interval::outward(lo, hi)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::exact::{Rational, rational};
+
+    fn holds(interval: Interval, value: &Rational) -> bool {
+        let below = interval.lo == f64::NEG_INFINITY || rational(interval.lo) <= *value;
+        let above = interval.hi == f64::INFINITY || *value <= rational(interval.hi);
+        below && above
+    }
+
+    proptest! {
+        #[test]
+        fn every_operation_holds_the_exact_result(
+            a in any::<f64>().prop_filter("finite", |x| x.is_finite()),
+            b in any::<f64>().prop_filter("finite", |x| x.is_finite()),
+            c in -90_000.0..450_000.0,
+            d in -1.0..1.0,
+        ) {
+            for (x, y) in [(a, b), (a, c), (c, d), (d, d)] {
+                let (ix, iy) = (Interval::from_f64(x), Interval::from_f64(y));
+                let (rx, ry) = (rational(x), rational(y));
+                prop_assert!(holds(ix.plus(&iy), &(&rx + &ry)));
+                prop_assert!(holds(ix.minus(&iy), &(&rx - &ry)));
+                prop_assert!(holds(ix.times(&iy), &(&rx * &ry)));
+                if y != 0.0 {
+                    prop_assert!(holds(ix.divide(iy), &(&rx / &ry)));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn overflow_knows_nothing() {
+        let huge = Interval::from_f64(f64::MAX).times(&Interval::from_f64(f64::MAX));
+        assert!(
+            huge.minus(&huge)
+                .compare(&Interval::from_f64(0.0))
+                .is_none()
+        );
+    }
+}

@@ -1,0 +1,40 @@
+//! Independent checkers for the claims of `pg_occlusion`: occlusion volumes, inner envelopes,
+//! single occluders and lines of sight, each decided exactly on the `f64` values as they are. A
+//! certified floating-point filter answers the plain cases, and rational arithmetic the rest; no
+//! answer depends on an epsilon. It shares no code with the engine or the extension, so that a
+//! mistake there cannot hide here.
+//!
+//! Frame: metres, z up, right-handed. Points are `[x, y, z]`.
+
+#![forbid(unsafe_code)]
+
+mod aabb;
+mod bvh;
+mod contact;
+mod determinant;
+mod exact;
+mod ground;
+mod inner_envelope;
+mod interval;
+mod mesh;
+mod number;
+mod occluder;
+mod overlap;
+mod ray_caster;
+mod samples;
+#[cfg(test)]
+mod scenes;
+mod segment;
+mod touch;
+mod volume;
+mod winding;
+
+pub use aabb::{Aabb, Point};
+pub use ground::{GROUND_TOLERANCE, solid_ground};
+pub use inner_envelope::{InnerFault, check_inner_envelope};
+pub use mesh::{Mesh, Triangle};
+pub use occluder::{Occluder, OccluderIndex, box_hidden_by_any, single_occluder_hides};
+pub use ray_caster::{BadTriangle, Hit, MAX_COORDINATE, RayCaster, Sight};
+pub use samples::{SAMPLE_INSET, surface_samples};
+pub use segment::segment_meets_interior;
+pub use volume::{VolumeFault, check_volume};

@@ -1,0 +1,375 @@
+//! Pictures: given pixels have given colours, and everything is where the scene says.
+
+use renderer::{
+    Area, Error, Image, Observer, PictureFeature, PictureScene, PlanView, Renderer, Status, View,
+    plan,
+};
+use std::sync::LazyLock;
+
+static RENDERER: LazyLock<Renderer> = LazyLock::new(|| Renderer::new().unwrap());
+
+const GREEN: [u8; 3] = [43, 164, 125];
+const RED: [u8; 3] = [214, 92, 62];
+const BLUE: [u8; 3] = [58, 116, 190];
+const STREET: [u8; 3] = [225, 228, 231];
+const PAPER: [u8; 3] = [248, 246, 241];
+
+/// A box with a lower corner and a size, as twelve triangles of mixed windings.
+fn house(status: Status, low: [f64; 3], size: [f64; 3]) -> PictureFeature {
+    let corner = |i: usize| -> [f64; 3] {
+        std::array::from_fn(|axis| low[axis] + if i >> axis & 1 == 1 { size[axis] } else { 0.0 })
+    };
+    let faces = [
+        [0, 1, 3, 2],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 3, 7, 6],
+        [0, 2, 6, 4],
+        [1, 3, 7, 5],
+    ];
+    let triangles = faces
+        .iter()
+        .flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]]);
+    PictureFeature {
+        status,
+        triangles: triangles.map(|t| t.map(corner)).collect(),
+    }
+}
+
+/// Four houses around a street, at map coordinates. The observer looks north.
+fn scene() -> PictureScene {
+    let [x, y] = [85_000.0, 447_000.0];
+    let square = |at: [f64; 2], half: f64| {
+        vec![
+            [at[0] - half, at[1] - half],
+            [at[0] + half, at[1] - half],
+            [at[0] + half, at[1] + half],
+            [at[0] - half, at[1] + half],
+        ]
+    };
+    PictureScene {
+        title: "Four houses".into(),
+        subtitle: "an observer looks north".into(),
+        attribution: "made up".into(),
+        features: vec![
+            house(
+                Status::Visible,
+                [x - 10.0, y + 20.0, 0.0],
+                [20.0, 10.0, 15.0],
+            ),
+            house(Status::Hidden, [x - 5.0, y + 40.0, 0.0], [10.0, 10.0, 6.0]),
+            house(
+                Status::OverEstimated,
+                [x - 5.0, y + 60.0, 0.0],
+                [10.0, 10.0, 5.0],
+            ),
+            house(
+                Status::Outside,
+                [x - 10.0, y - 40.0, 0.0],
+                [20.0, 10.0, 9.0],
+            ),
+        ],
+        streets: vec![Area {
+            exterior: square([x + 40.0, y + 10.0], 20.0),
+            holes: vec![square([x + 40.0, y + 10.0], 8.0)],
+        }],
+        rectangles: vec![([x - 44.0, y - 40.0], [x - 24.0, y - 20.0])],
+        observer: Some(Observer {
+            eye: [x, y, 1.75],
+            heading: 0.0,
+            angle: 60.0,
+            range: 80.0,
+        }),
+    }
+}
+
+/// The plan of 100 x 125 m at 4 pixels a metre, beside a legend of 240 pixels or more.
+struct Plan(Image);
+
+impl Plan {
+    const WIDTH: u32 = 1000;
+    const HEIGHT: u32 = 500;
+
+    fn of(scene: &PictureScene) -> Self {
+        let window = Some(([84_950.0, 446_950.0], [85_050.0, 447_075.0]));
+        let view = PlanView {
+            width: Self::WIDTH,
+            height: Self::HEIGHT,
+            window,
+        };
+        Self(plan(scene, &view).unwrap())
+    }
+
+    /// The colour at a place, relative to the observer. The map's middle is x = 0, y = 12.5.
+    fn at(&self, x: f64, y: f64) -> [u8; 3] {
+        let unit: f64 = 500.0 / 800.0;
+        let map = f64::from(Self::WIDTH) - (0.24 * 1000.0_f64).clamp(150.0 * unit, 290.0 * unit);
+        let right = map / 2.0 + 4.0 * x;
+        let down = 250.0 - 4.0 * (y - 12.5);
+        rgb(&self.0, right as u32, down as u32)
+    }
+}
+
+fn rgb(image: &Image, x: u32, y: u32) -> [u8; 3] {
+    let [r, g, b, a] = image.pixel(x, y).unwrap();
+    assert_eq!(a, 255);
+    [r, g, b]
+}
+
+fn pixels(image: &Image) -> impl Iterator<Item = (u32, u32, [u8; 3])> {
+    let at = |i: u32| (i % image.width(), i / image.width());
+    (0..image.width() * image.height()).map(move |i| {
+        let (x, y) = at(i);
+        (x, y, rgb(image, x, y))
+    })
+}
+
+#[test]
+fn a_plan_shows_each_status_in_its_colour() {
+    let plan = Plan::of(&scene());
+    assert_eq!(plan.at(5.0, 25.0), GREEN);
+    assert_eq!(plan.at(2.0, 43.0), RED);
+    assert_eq!(plan.at(3.0, 64.0 - 3.0), BLUE);
+    let outside = plan.at(5.0, -35.0);
+    assert!(
+        outside[0].abs_diff(outside[2]) < 20 && outside[0] > 200,
+        "{outside:?}"
+    );
+    assert_eq!(plan.at(-40.0, 40.0), PAPER);
+}
+
+#[test]
+fn a_plan_shows_streets_with_their_holes() {
+    let plan = Plan::of(&scene());
+    assert_eq!(plan.at(55.0, 10.0), STREET);
+    assert_eq!(plan.at(40.0, 10.0), PAPER);
+}
+
+#[test]
+fn a_plan_tints_the_field_of_view_and_the_volumes() {
+    let plan = Plan::of(&scene());
+    let [r, _, b] = plan.at(4.0, 15.0);
+    assert!(r > b + 30, "the field of view is warm");
+    assert_eq!(plan.at(-12.0, 8.0), PAPER, "beside the sector");
+    let [r, g, b] = plan.at(-34.0, -30.0);
+    assert!(b > g && r > g, "volumes are violet");
+    let mark = plan.at(0.0, 0.0);
+    assert!(
+        mark.iter().all(|&channel| channel < 60),
+        "the observer is dark: {mark:?}"
+    );
+    let pointer = plan.at(0.0, 3.0);
+    assert!(
+        pointer.iter().all(|&channel| channel < 60),
+        "it points north: {pointer:?}"
+    );
+}
+
+#[test]
+fn footprints_have_no_seams_and_a_dark_outline() {
+    let plan = Plan::of(&scene());
+    for step in 0..160 {
+        for line in 0..72 {
+            let (x, y) = (
+                -9.5 + f64::from(step) * 0.119,
+                20.5 + f64::from(line) * 0.125,
+            );
+            if !(x.abs() < 2.0 && y < 10.0) {
+                assert_eq!(plan.at(x, y), GREEN, "at {x}, {y}");
+            }
+        }
+    }
+    let along: Vec<u8> = (0..12)
+        .map(|i| plan.at(-11.0 + 0.125 * f64::from(i), 25.0)[1])
+        .collect();
+    assert!(along.iter().any(|&green| green < 150), "{along:?}");
+}
+
+#[test]
+fn a_plan_has_its_legend_beside_the_map() {
+    let image = Plan::of(&scene()).0;
+    assert_eq!((image.width(), image.height()), (Plan::WIDTH, Plan::HEIGHT));
+    for color in [GREEN, RED, BLUE] {
+        let swatch = pixels(&image)
+            .filter(|&(x, _, c)| x > 830 && c == color)
+            .count();
+        assert!((20..200).contains(&swatch), "{swatch} pixels of {color:?}");
+    }
+    let ink = pixels(&image)
+        .filter(|&(x, _, c)| x > 830 && c[0] < 60 && c[2] < 70)
+        .count();
+    assert!(ink > 150, "{ink} pixels of text");
+    let bare = Plan::of(&PictureScene::default()).0;
+    assert!(pixels(&bare).all(|(x, _, c)| x < 830 || (c != RED && c != BLUE)));
+}
+
+#[test]
+fn a_plan_of_nothing_is_paper() {
+    let view = PlanView {
+        width: 300,
+        height: 200,
+        window: None,
+    };
+    let image = plan(&PictureScene::default(), &view).unwrap();
+    assert_eq!(rgb(&image, 50, 100), PAPER);
+}
+
+#[test]
+fn a_plan_holds_the_whole_scene() {
+    let image = plan(
+        &scene(),
+        &PlanView {
+            width: 800,
+            height: 600,
+            window: None,
+        },
+    )
+    .unwrap();
+    let map = |color| {
+        pixels(&image)
+            .filter(|&(x, _, c)| x < 580 && c == color)
+            .count()
+    };
+    assert!(map(GREEN) > 1000 && map(RED) > 500 && map(BLUE) > 500);
+}
+
+#[test]
+fn broken_coordinates_are_left_out_of_pictures() {
+    let mut broken = scene();
+    broken.features[0].triangles[0][0][0] = f64::NAN;
+    broken.features[1].triangles[3][1][2] = f64::INFINITY;
+    broken.streets[0].exterior[2][1] = f64::NAN;
+    assert_eq!(Plan::of(&broken).at(5.0, 25.0), GREEN);
+    let view = View::from_above(&broken, 160, 100);
+    assert!(RENDERER.perspective(&broken, &view).is_ok());
+}
+
+#[test]
+fn impossible_plans_are_refused() {
+    let sized = |width, height| {
+        plan(
+            &scene(),
+            &PlanView {
+                width,
+                height,
+                window: None,
+            },
+        )
+    };
+    assert!(matches!(sized(0, 100), Err(Error::View(_))));
+    assert!(
+        sized(100_000, 100)
+            .unwrap_err()
+            .to_string()
+            .contains("100000")
+    );
+    for corner in [[0.0, 0.0], [f64::NAN, 9.0], [f64::INFINITY, 1.0]] {
+        let view = PlanView {
+            width: 90,
+            height: 90,
+            window: Some(([0.0, 0.0], corner)),
+        };
+        assert!(matches!(plan(&scene(), &view), Err(Error::View(_))));
+    }
+}
+
+/// How far a colour leans to one of the three channels.
+fn leans([r, g, b]: [u8; 3], to: usize) -> bool {
+    let channels = [r, g, b].map(i32::from);
+    (0..3).all(|other| other == to || channels[to] > channels[other] + 25)
+}
+
+#[test]
+fn from_the_observers_eye_only_the_front_house_is_seen() {
+    let scene = scene();
+    let view = View::from_observer(&scene.observer.unwrap(), 640, 400);
+    let image = RENDERER.perspective(&scene, &view).unwrap();
+    assert_eq!((image.width(), image.height()), (640, 400));
+    assert!(
+        leans(rgb(&image, 320, 195), 1),
+        "{:?}",
+        rgb(&image, 320, 195)
+    );
+    let sky = rgb(&image, 500, 8);
+    assert!(sky[2] > sky[0], "{sky:?}");
+    let card = |x: u32, y: u32| x < 170 && y < 200;
+    assert!(
+        pixels(&image).all(|(x, y, c)| card(x, y) || !leans(c, 0)),
+        "red is hidden"
+    );
+    assert!(
+        pixels(&image).any(|(x, y, c)| card(x, y) && leans(c, 0)),
+        "red is in the legend"
+    );
+}
+
+#[test]
+fn from_above_all_are_seen() {
+    let scene = scene();
+    let view = View::from_above(&scene, 640, 400);
+    let image = RENDERER.perspective(&scene, &view).unwrap();
+    for channel in 0..3 {
+        let count = pixels(&image)
+            .filter(|&(x, _, c)| x > 180 && leans(c, channel))
+            .count();
+        assert!(count > 60, "{count} pixels lean to channel {channel}");
+    }
+}
+
+#[test]
+fn houses_cast_shadows_on_lit_ground() {
+    let [x, y] = [85_000.0, 447_000.0];
+    let features = vec![house(
+        Status::Outside,
+        [x - 5.0, y - 5.0, 0.0],
+        [10.0, 10.0, 20.0],
+    )];
+    let scene = PictureScene {
+        features,
+        ..Default::default()
+    };
+    let view = View {
+        eye: [x, y, 200.0],
+        target: [x, y, 0.0],
+        vertical_angle: 40.0,
+        width: 400,
+        height: 400,
+    };
+    let image = RENDERER.perspective(&scene, &view).unwrap();
+    let light = |x: u32, y: u32| rgb(&image, x, y).map(u32::from).iter().sum::<u32>();
+    // North is up; the sun stands in the south-east, so the shadow falls to the north-west.
+    let (north_west, south_east) = (light(178, 170), light(222, 230));
+    assert!(north_west + 90 < south_east, "{north_west} {south_east}");
+}
+
+#[test]
+fn impossible_cameras_are_refused() {
+    let scene = scene();
+    let good = View::from_above(&scene, 64, 48);
+    let refused = |view: View| RENDERER.perspective(&scene, &view).unwrap_err();
+    assert!(matches!(
+        refused(View {
+            target: good.eye,
+            ..good
+        }),
+        Error::View(_)
+    ));
+    assert!(matches!(
+        refused(View { width: 0, ..good }),
+        Error::Resolution { .. }
+    ));
+    assert!(matches!(
+        refused(View {
+            height: u32::MAX,
+            ..good
+        }),
+        Error::Resolution { .. }
+    ));
+    assert!(matches!(
+        refused(View {
+            vertical_angle: 0.0,
+            ..good
+        }),
+        Error::View(_)
+    ));
+}

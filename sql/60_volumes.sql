@@ -5,7 +5,7 @@ CREATE PROCEDURE occlusion.generate_occlusion_volumes(scene text, smallest float
                                                       worth float8 DEFAULT NULL)
 LANGUAGE c AS 'MODULE_PATHNAME', 'generate_occlusion_volumes_wrapper';
 COMMENT ON PROCEDURE occlusion.generate_occlusion_volumes(text, float8, float8, float8) IS
-    'computes from where single features hide others, along all streets; replaces what is there, commits batch by batch. smallest: least width of a lane in metres; range: farthest look in metres, NULL for any; worth: square metres of street that each volume must add, NULL for 4 times smallest squared';
+    'computes from where single features hide others, along all streets; replaces what is there, commits batch by batch. smallest: least width of a lane in metres; range: farthest look in metres, NULL for any; worth: square metres of street that each volume must add, NULL for the larger of 4 times smallest squared and a 20,000th of the street area';
 
 CREATE FUNCTION occlusion.progress(scene text)
 RETURNS TABLE (task text, done bigint, total bigint, made bigint, per_second float8,

@@ -2,6 +2,9 @@
 
 use glam::DVec2;
 
+/// Two tangents from each of the four plan corners of an occludee.
+const MOST_SIDES: usize = 8;
+
 /// A convex plan region: the intersection of an axis-aligned rectangle and some half-planes.
 ///
 /// Coordinates inside are relative to an origin near the occluder, so that differences keep
@@ -12,14 +15,15 @@ pub struct ShadowRegion {
     min: DVec2,
     max: DVec2,
     /// `normal · p <= offset`.
-    sides: Vec<(DVec2, f64)>,
+    sides: [(DVec2, f64); MOST_SIDES],
+    count: usize,
 }
 
 impl ShadowRegion {
     /// All of `window`, two absolute corners.
     pub(crate) fn new(origin: DVec2, window: [DVec2; 2]) -> Self {
         let [min, max] = window.map(|corner| corner - origin);
-        Self { origin, min, max, sides: Vec::with_capacity(8) }
+        Self { origin, min, max, sides: [(DVec2::ZERO, 0.0); MOST_SIDES], count: 0 }
     }
 
     /// Keeps what is at most `limit` (relative) on `axis`.
@@ -33,8 +37,12 @@ impl ShadowRegion {
     }
 
     /// Keeps the half-plane `normal · p <= offset` (relative).
+    ///
+    /// # Panics
+    /// When called more than eight times.
     pub(crate) fn bound(&mut self, normal: DVec2, offset: f64) {
-        self.sides.push((normal, offset));
+        self.sides[self.count] = (normal, offset);
+        self.count += 1;
     }
 
     /// Whether the enclosing rectangle has area; the region itself may still be empty.
@@ -83,7 +91,7 @@ impl ShadowRegion {
         worst: fn(f64, f64) -> f64,
     ) -> Option<[f64; 2]> {
         let (mut start, mut end) = (self.min[axis], self.max[axis]);
-        for (normal, offset) in &self.sides {
+        for (normal, offset) in &self.sides[..self.count] {
             let across = normal[1 - axis];
             let rest = offset - worst(across * lane[0], across * lane[1]);
             let slope = normal[axis];
@@ -96,6 +104,6 @@ impl ShadowRegion {
             }
         }
         let origin = self.origin[axis];
-        (start < end).then(|| [start + origin, end + origin])
+        (start < end).then_some([start + origin, end + origin])
     }
 }

@@ -5,6 +5,13 @@
 mod error;
 mod index;
 mod scene;
+mod settings;
 mod types;
 
 pgrx::pg_module_magic!();
+
+/// Runs when a backend loads the library.
+#[pgrx::pg_guard]
+pub extern "C-unwind" fn _PG_init() {
+    settings::register();
+}

@@ -1,13 +1,17 @@
 //! Where observers can be.
 
+mod built_over;
 mod footprint;
+mod local_ground;
 mod open_space;
 mod road;
 mod site;
 mod street;
 mod tiling;
 
+pub use built_over::without_footprints;
 pub use footprint::footprint;
+pub use local_ground::LocalGround;
 pub use open_space::open_space;
 pub use road::streets_from_surfaces;
 pub use site::Site;

@@ -87,7 +87,7 @@ fn tiles(extent: Rect<f64>, size: f64) -> impl Iterator<Item = Rect<f64>> {
 }
 
 /// The polygon with its rings in order, without tiny holes; `None` when it is itself a sliver.
-fn without_slivers(polygon: Polygon<f64>) -> Option<Polygon<f64>> {
+pub fn without_slivers(polygon: Polygon<f64>) -> Option<Polygon<f64>> {
     let area = polygon.unsigned_area();
     let border = Euclidean.length(polygon.exterior());
     // Mean width of something long: area over half of its border.

@@ -42,6 +42,8 @@ pub struct LaneFiller<'a> {
     pub worth: f64,
     /// Metres below which no lane is halved.
     pub smallest: f64,
+    /// Asked at each lane: whether to give up, with whatever is found so far.
+    pub cancelled: &'a dyn Fn() -> bool,
 }
 
 impl LaneFiller<'_> {
@@ -49,7 +51,7 @@ impl LaneFiller<'_> {
     /// when each piece they cost more adds its worth.
     pub fn cover(&self, lane: [f64; 2], shadows: &[&Shadow]) -> Cover {
         let (own, covered) = self.cover_whole(lane, shadows);
-        if lane[1] - lane[0] < 2.0 * self.smallest {
+        if lane[1] - lane[0] < 2.0 * self.smallest || (self.cancelled)() {
             return own;
         }
         let useful = self.useful(lane, shadows, &own, &covered);

@@ -3,12 +3,19 @@
 use super::block::Block;
 use super::lanes::{Cover, LaneFiller, Shadow};
 use crate::{Box3d, Occluder, Street, umbra_in_band};
+use geo::Area;
 use glam::DVec2;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 /// Length to width above which a block's lanes run along its length only.
 const LONG_BLOCK: f64 = 3.0;
+
+/// Smallest pieces of street that a volume must add, where the user names no worth.
+const LEAST_PIECES: f64 = 4.0;
+
+/// Bound on the volumes of one occludee, where the user names no worth; a tenth is usual.
+const MOST_VOLUMES: f64 = 20_000.0;
 
 /// How finely to look for volumes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +26,16 @@ pub struct VolumeOptions {
     pub worth: f64,
     /// Metres beyond which nobody looks: eyes farther than this from the occludee are left out.
     pub range: Option<f64>,
+}
+
+impl VolumeOptions {
+    /// The worth of a volume where none is asked for: enough for four smallest pieces, and in
+    /// large scenes enough to keep the volumes of one occludee to some thousands.
+    #[must_use]
+    pub fn usual_worth(smallest: f64, streets: &[Street]) -> f64 {
+        let area: f64 = streets.iter().map(|street| street.area.unsigned_area()).sum();
+        (LEAST_PIECES * smallest * smallest).max(area / MOST_VOLUMES)
+    }
 }
 
 /// A box from all of which one feature hides another.
@@ -71,14 +88,14 @@ impl VolumeSolver {
                 return None;
             }
             let shadows = self.shadows(occludee, envelope, block);
-            let (axis, cover) = self.best_cover(block, &shadows);
+            let (axis, cover) = self.best_cover(block, &shadows, &cancelled);
             found.extend(cover.pieces.iter().map(|piece| OcclusionVolume {
                 occluder: self.occluders[piece.occluder].feature,
                 occludee,
                 bounds: block.volume(axis, piece.lane, piece.span),
             }));
         }
-        Some(found)
+        (!cancelled()).then_some(found)
     }
 
     /// Whether someone in the block may look at the envelope.
@@ -107,12 +124,17 @@ impl VolumeSolver {
     }
 
     /// Fills the block with lanes along the axis that serves best.
-    fn best_cover(&self, block: &Block, shadows: &[Shadow]) -> (usize, Cover) {
+    fn best_cover(
+        &self,
+        block: &Block,
+        shadows: &[Shadow],
+        cancelled: &dyn Fn() -> bool,
+    ) -> (usize, Cover) {
         let shadows: Vec<&Shadow> = shadows.iter().collect();
         let size: DVec2 = block.window[1] - block.window[0];
-        let worth = self.options.worth;
+        let VolumeOptions { worth, smallest, .. } = self.options;
         let along = |axis: usize| {
-            let filler = LaneFiller { block, axis, worth, smallest: self.options.smallest };
+            let filler = LaneFiller { block, axis, worth, smallest, cancelled };
             let across = 1 - axis;
             filler.cover([block.window[0][across], block.window[1][across]], &shadows)
         };

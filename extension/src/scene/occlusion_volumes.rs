@@ -5,9 +5,11 @@ use super::workers::Workers;
 use super::{failed, quoted, require, streets};
 use crate::error::Refusal;
 use crate::types::Box3d;
-use engine::{Occluder, OcclusionVolume, VolumeOptions, VolumeSolver};
+use engine::{Occluder, OcclusionVolume, Street, VolumeOptions, VolumeSolver};
+use pgrx::datum::DatumWithOid;
 use pgrx::{PgSqlErrorCode, Spi, notice, pg_extern, pg_sys};
 use rayon::prelude::*;
+use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -16,9 +18,6 @@ const BATCH: usize = 64;
 
 /// Name of the work in the table `job`.
 const TASK: &str = "generate_occlusion_volumes";
-
-/// Square metres of street that a volume must add, for each square metre of a smallest piece.
-const WORTH: f64 = 4.0;
 
 /// Computes the occlusion volumes of all features of a scene.
 #[pg_extern]
@@ -30,13 +29,19 @@ fn generate_occlusion_volumes(
     fcinfo: pg_sys::FunctionCallInfo,
 ) {
     let Some(scene) = scene else { missing("scene") };
-    let options = options(smallest, range, worth);
+    let asked = Asked::checked(smallest, range, worth);
     let mut procedure = Procedure::begin(fcinfo, TASK);
     require(scene);
     let job = Job::new(scene);
-    let occluders = read_occluders(scene);
+    let name = quoted(scene);
+    let occluders =
+        occluders(&format!("SELECT feature, box, grounded FROM {name}.inner_envelope"), &[]);
     let streets = streets::read(scene);
-    let targets = read_targets(scene);
+    // Those near each other in turn.
+    let targets = targets(
+        &format!("SELECT id, envelope FROM {name}.feature ORDER BY slot NULLS LAST, id"),
+        &[],
+    );
     if streets.is_empty() && !targets.is_empty() {
         Refusal::new(
             PgSqlErrorCode::ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE,
@@ -54,7 +59,9 @@ fn generate_occlusion_volumes(
         streets.len()
     );
     let workers = Workers::start();
-    let solver = workers.run(|_| VolumeSolver::new(occluders, &streets, options));
+    let options = asked.options(&streets);
+    let solver = workers.run(|_| VolumeSolver::new(occluders.clone(), &streets, options));
+    let seen = Seen::new(&occluders, &targets);
     job.start(targets.len());
     procedure.commit();
 
@@ -62,7 +69,8 @@ fn generate_occlusion_volumes(
     let mut made = 0;
     let mut told = 0;
     for (number, batch) in targets.chunks(BATCH).enumerate() {
-        let volumes = workers.run(|cancelled| solve(&solver, batch, cancelled));
+        let mut volumes = workers.run(|cancelled| solve(&solver, batch, cancelled));
+        seen.drop_changed(scene, batch, &mut volumes);
         made += job.replace_volumes(batch, &volumes);
         let done = (number * BATCH + batch.len()).min(targets.len());
         job.advance(done, made);
@@ -82,26 +90,43 @@ fn generate_occlusion_volumes(
     procedure.end();
 }
 
-/// The options, checked.
-fn options(smallest: Option<f64>, range: Option<f64>, worth: Option<f64>) -> VolumeOptions {
-    let Some(smallest) = smallest else { missing("smallest") };
-    let positive = |value: f64, name: &str| {
-        if value.is_finite() && value > 0.0 {
-            return value;
+/// What the user asked for, checked.
+struct Asked {
+    smallest: f64,
+    range: Option<f64>,
+    worth: Option<f64>,
+}
+
+impl Asked {
+    fn checked(smallest: Option<f64>, range: Option<f64>, worth: Option<f64>) -> Self {
+        let Some(smallest) = smallest else { missing("smallest") };
+        Self {
+            smallest: positive(smallest, "smallest"),
+            range: range.map(|value| positive(value, "range")),
+            worth: worth.map(|value| positive(value, "worth")),
         }
-        Refusal::new(
-            PgSqlErrorCode::ERRCODE_INVALID_PARAMETER_VALUE,
-            format!("{name} {value} is out of bounds"),
-        )
-        .detail(format!("{name} is a finite number above 0."))
-        .raise()
-    };
-    let smallest = positive(smallest, "smallest");
-    VolumeOptions {
-        smallest,
-        worth: worth.map_or(WORTH * smallest * smallest, |value| positive(value, "worth")),
-        range: range.map(|value| positive(value, "range")),
     }
+
+    fn options(&self, streets: &[Street]) -> VolumeOptions {
+        let usual = || VolumeOptions::usual_worth(self.smallest, streets);
+        VolumeOptions {
+            smallest: self.smallest,
+            range: self.range,
+            worth: self.worth.unwrap_or_else(usual),
+        }
+    }
+}
+
+fn positive(value: f64, name: &str) -> f64 {
+    if value.is_finite() && value > 0.0 {
+        return value;
+    }
+    Refusal::new(
+        PgSqlErrorCode::ERRCODE_INVALID_PARAMETER_VALUE,
+        format!("{name} {value} is out of bounds"),
+    )
+    .detail(format!("{name} is a finite number above 0."))
+    .raise()
 }
 
 fn missing(parameter: &str) -> ! {
@@ -126,11 +151,12 @@ fn solve(solver: &VolumeSolver, batch: &[Target], cancelled: &AtomicBool) -> Vec
         .collect()
 }
 
-fn read_occluders(scene: &str) -> Vec<Occluder> {
-    let query = format!("SELECT feature, box, grounded FROM {}.inner_envelope", quoted(scene));
-    let rows = Spi::connect(|client| {
+/// The occluders that a query of feature, box, grounded returns.
+fn occluders(query: &str, arguments: &[DatumWithOid]) -> Vec<Occluder> {
+    // A read-only query may not lock rows.
+    let rows = Spi::connect_mut(|client| {
         client
-            .select(&query, None, &[])?
+            .update(query, None, arguments)?
             .map(|row| Ok((row.get::<i64>(1)?, row.get::<Box3d>(2)?, row.get::<bool>(3)?)))
             .collect::<Result<Vec<_>, pgrx::spi::Error>>()
     });
@@ -142,13 +168,12 @@ fn read_occluders(scene: &str) -> Vec<Occluder> {
         .collect()
 }
 
-/// All features, those near each other in turn.
-fn read_targets(scene: &str) -> Vec<Target> {
-    let query =
-        format!("SELECT id, envelope FROM {}.feature ORDER BY slot NULLS LAST, id", quoted(scene));
-    let rows = Spi::connect(|client| {
+/// The features that a query of id, envelope returns.
+fn targets(query: &str, arguments: &[DatumWithOid]) -> Vec<Target> {
+    // A read-only query may not lock rows.
+    let rows = Spi::connect_mut(|client| {
         client
-            .select(&query, None, &[])?
+            .update(query, None, arguments)?
             .map(|row| Ok((row.get::<i64>(1)?, row.get::<Box3d>(2)?)))
             .collect::<Result<Vec<_>, pgrx::spi::Error>>()
     });
@@ -156,6 +181,51 @@ fn read_targets(scene: &str) -> Vec<Target> {
         .into_iter()
         .filter_map(|(feature, bounds)| Some((feature?, bounds?.0)))
         .collect()
+}
+
+/// Features as they were when the work began.
+struct Seen {
+    occluders: HashMap<i64, Occluder>,
+    envelopes: HashMap<i64, engine::Box3d>,
+}
+
+impl Seen {
+    fn new(occluders: &[Occluder], targets: &[Target]) -> Self {
+        Self {
+            occluders: occluders.iter().map(|occluder| (occluder.feature, *occluder)).collect(),
+            envelopes: targets.iter().copied().collect(),
+        }
+    }
+
+    /// Drops the volumes whose features have changed or gone meanwhile. The others' rows stay
+    /// locked until the commit, after which triggers take care of their volumes.
+    fn drop_changed(&self, scene: &str, batch: &[Target], volumes: &mut Vec<OcclusionVolume>) {
+        let names: Vec<i64> = batch.iter().map(|(feature, _)| *feature).collect();
+        let lock = "OPERATOR(pg_catalog.=) ANY ($1) FOR SHARE";
+        let scene = quoted(scene);
+        let envelopes: HashMap<i64, engine::Box3d> = targets(
+            &format!("SELECT id, envelope FROM {scene}.feature WHERE id {lock}"),
+            &[names.into()],
+        )
+        .into_iter()
+        .collect();
+        let mut names: Vec<i64> = volumes.iter().map(|volume| volume.occluder).collect();
+        names.sort_unstable();
+        names.dedup();
+        let occluders: HashMap<i64, Occluder> = occluders(
+            &format!(
+                "SELECT feature, box, grounded FROM {scene}.inner_envelope WHERE feature {lock}"
+            ),
+            &[names.into()],
+        )
+        .into_iter()
+        .map(|occluder| (occluder.feature, occluder))
+        .collect();
+        volumes.retain(|volume| {
+            envelopes.get(&volume.occludee) == self.envelopes.get(&volume.occludee)
+                && occluders.get(&volume.occluder) == self.occluders.get(&volume.occluder)
+        });
+    }
 }
 
 /// The row of `job` that tells others how far this is, and the table that it fills.
@@ -206,8 +276,7 @@ impl Job {
         );
     }
 
-    /// Replaces the volumes of a batch. Volumes whose features have changed since they were read
-    /// are left out; the rows read again are locked against changes until the commit.
+    /// Replaces the volumes of a batch; returns how many there are now.
     fn replace_volumes(&self, batch: &[Target], volumes: &[OcclusionVolume]) -> i64 {
         let features: Vec<i64> = batch.iter().map(|(feature, _)| *feature).collect();
         self.run(
@@ -246,7 +315,7 @@ impl Job {
         count(volumes.len())
     }
 
-    fn run(&self, statement: &str, arguments: &[pgrx::datum::DatumWithOid]) {
+    fn run(&self, statement: &str, arguments: &[DatumWithOid]) {
         if let Err(error) = Spi::run_with_args(statement, arguments) {
             failed(&error);
         }

@@ -1,6 +1,7 @@
 //! [`Workers`], threads that compute while the backend's main thread stays answerable.
 
 use crate::error::Refusal;
+use crate::settings;
 use pgrx::{PgSqlErrorCode, check_for_interrupts, pg_sys};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -13,9 +14,12 @@ const POLL: Duration = Duration::from_millis(20);
 pub struct Workers(rayon::ThreadPool);
 
 impl Workers {
-    /// Starts one thread for each core, with all signals blocked: they belong to the main thread.
+    /// Starts the threads that `pg_occlusion.max_threads` allows, one for each core when it is 0,
+    /// with all signals blocked: they belong to the main thread.
     pub fn start() -> Self {
-        let pool = with_signals_blocked(|| rayon::ThreadPoolBuilder::new().build());
+        let threads = usize::try_from(settings::MAX_THREADS.get()).unwrap_or(0);
+        let builder = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = with_signals_blocked(|| builder.build());
         match pool {
             Ok(pool) => Self(pool),
             Err(error) => Refusal::new(

@@ -1,0 +1,151 @@
+//! What a picture shows.
+
+use std::collections::HashSet;
+
+use postgres::Client;
+use renderer::{Area, Observer, PictureFeature, PictureScene, PlanView, Renderer, Status};
+
+use super::Render;
+use super::size::Size;
+use crate::failure::Failure;
+use crate::field_of_view::Returned;
+use crate::scene::{Scene, Street, Surfaces, number};
+
+/// Pixels along a side of each face of the item buffer that tells what is truly visible.
+const TRUTH: u32 = 2048;
+
+/// A scene wider than so many ranges is not shown whole on a map.
+const WIDE: f64 = 4.0;
+
+impl Render {
+    /// The scene in the colours of the answer.
+    pub fn picture(
+        &self,
+        client: &mut Client,
+        scene: &Scene,
+        renderer: &Renderer,
+    ) -> Result<PictureScene, Failure> {
+        let ids = |features: Vec<Returned>| features.iter().map(|feature| feature.id).collect();
+        let within: HashSet<i64> = ids(self.field_of_view.within(client, &self.scene)?);
+        let returned: HashSet<i64> = ids(self.field_of_view.visible(client, &self.scene)?);
+        let mesh = Surfaces::of(scene).mesh();
+        let seen = renderer
+            .cube_map(&mesh, self.field_of_view.observer.0, TRUTH)?
+            .seen();
+        let is_seen = |position: usize| seen.contains_key(&number(position));
+        let status = |position: usize, id: i64| match self.truth {
+            true => true_status(within.contains(&id), is_seen(position)),
+            false => status(
+                within.contains(&id),
+                returned.contains(&id),
+                is_seen(position),
+            ),
+        };
+        let features = scene
+            .features
+            .iter()
+            .enumerate()
+            .map(|(position, feature)| PictureFeature {
+                status: status(position, feature.id),
+                triangles: feature.surface().unwrap_or_default(),
+            });
+        Ok(PictureScene {
+            title: self.caption.clone().unwrap_or_else(|| self.scene.clone()),
+            subtitle: self.question(),
+            attribution: scene.attribution.clone().unwrap_or_default(),
+            features: features.collect(),
+            streets: scene.streets.iter().map(area).collect(),
+            rectangles: Vec::new(),
+            observer: Some(self.observer()),
+        })
+    }
+
+    /// Who looks, and whereto.
+    pub fn observer(&self) -> Observer {
+        let (heading, angle) = self.field_of_view.direction().unwrap_or((0.0, 360.0));
+        Observer {
+            eye: self.field_of_view.observer.0,
+            heading,
+            angle,
+            range: self.field_of_view.range,
+        }
+    }
+
+    /// What was asked, in words.
+    fn question(&self) -> String {
+        let [x, y, z] = self.field_of_view.observer.0;
+        let range = self.field_of_view.range;
+        let whereto = match self.field_of_view.direction() {
+            None => "all round".to_owned(),
+            Some((heading, angle)) => format!("heading {heading}°, {angle}° wide"),
+        };
+        let coloured = if self.truth {
+            "\ncoloured by what is truly visible"
+        } else {
+            ""
+        };
+        format!("from {x:.2}, {y:.2}, {z:.2}\n{whereto}, {range} m far{coloured}")
+    }
+
+    /// The whole scene, or what is in range where the scene is much wider.
+    pub fn plan_view(&self, picture: &PictureScene) -> PlanView {
+        let Size { width, height } = self.size;
+        let ([x, y, _], range) = (self.field_of_view.observer.0, self.field_of_view.range);
+        let corners = picture
+            .features
+            .iter()
+            .flat_map(|f| f.triangles.iter().flatten());
+        let farthest = corners.fold(0.0, |far: f64, corner| {
+            far.max((corner[0] - x).abs()).max((corner[1] - y).abs())
+        });
+        let reach = 1.1 * range;
+        let window = ([x - reach, y - reach], [x + reach, y + reach]);
+        PlanView {
+            width,
+            height,
+            window: (farthest > WIDE * range).then_some(window),
+        }
+    }
+}
+
+/// The colour of a feature.
+fn status(within: bool, returned: bool, seen: bool) -> Status {
+    match (returned, seen, within) {
+        (true, true, _) => Status::Visible,
+        (true, false, _) => Status::OverEstimated,
+        (false, _, true) => Status::Hidden,
+        (false, _, false) => Status::Outside,
+    }
+}
+
+/// The colour of a feature by the truth alone.
+fn true_status(within: bool, seen: bool) -> Status {
+    match (within, seen) {
+        (true, true) => Status::Visible,
+        (true, false) => Status::Hidden,
+        (false, _) => Status::Outside,
+    }
+}
+
+fn area(street: &Street) -> Area {
+    let ring = |line: &geo::LineString<f64>| line.coords().map(|c| [c.x, c.y]).collect();
+    Area {
+        exterior: ring(street.area.exterior()),
+        holes: street.area.interiors().iter().map(ring).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_follow_the_answer() {
+        assert_eq!(status(true, true, true), Status::Visible);
+        assert_eq!(status(true, true, false), Status::OverEstimated);
+        // Seen and left out: the red that must not be.
+        assert_eq!(status(true, false, true), Status::Hidden);
+        assert_eq!(status(false, false, true), Status::Outside);
+        assert_eq!(true_status(true, false), Status::Hidden);
+    }
+}

@@ -1,0 +1,133 @@
+//! [`Feature`], a feature with its stored shapes.
+
+use std::fmt;
+
+use oracle::{Mesh, Triangle};
+
+use crate::sql_types::Box3d;
+
+/// A feature with everything that is stored of its shape.
+#[derive(Clone, Debug)]
+pub struct Feature {
+    /// Its number.
+    pub id: i64,
+    /// Its identifier in the source.
+    pub name: Option<String>,
+    /// Its class.
+    pub class: String,
+    /// Its outer envelope.
+    pub envelope: Box3d,
+    /// Its surface, if it has a model.
+    pub mesh: Option<Mesh>,
+    /// Its inner envelope, if it has one.
+    pub inner: Option<InnerEnvelope>,
+}
+
+/// What hides, as stored.
+#[derive(Clone, Copy, Debug)]
+pub struct InnerEnvelope {
+    /// The box.
+    pub bounds: Box3d,
+    /// Whether the ground under it is solid.
+    pub grounded: bool,
+}
+
+impl Feature {
+    /// Its true surface: the triangles of its mesh, or, where it has none, the faces of its inner
+    /// envelope. `None` when the mesh cannot be drawn: an index or a coordinate is wrong.
+    pub fn surface(&self) -> Option<Vec<Triangle>> {
+        match (&self.mesh, &self.inner) {
+            (Some(mesh), _) => mesh.corners(),
+            (None, Some(inner)) => Some(faces(&inner.bounds)),
+            (None, None) => Some(Vec::new()),
+        }
+    }
+
+    /// The solid ground under it, down to a height.
+    pub fn ground(&self, down_to: f64) -> Vec<Triangle> {
+        match (&self.mesh, &self.inner) {
+            (Some(mesh), Some(inner)) if inner.grounded => oracle::solid_ground(mesh, down_to),
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl fmt::Display for Feature {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.name {
+            Some(name) => write!(f, "{} {} ({name:?})", self.class, self.id),
+            None => write!(f, "{} {}", self.class, self.id),
+        }
+    }
+}
+
+/// The twelve triangles of a box.
+fn faces(bounds: &Box3d) -> Vec<Triangle> {
+    const FACES: [[usize; 4]; 6] = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let corners = oracle::Aabb::from(*bounds).corners();
+    FACES
+        .iter()
+        .map(|face| face.map(|corner| corners[corner]))
+        .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn feature() -> Feature {
+        let bounds = Box3d {
+            min: [0.0; 3],
+            max: [2.0, 3.0, 4.0],
+        };
+        Feature {
+            id: 7,
+            name: None,
+            class: "Building".to_owned(),
+            envelope: bounds,
+            mesh: None,
+            inner: Some(InnerEnvelope {
+                bounds,
+                grounded: true,
+            }),
+        }
+    }
+
+    #[test]
+    fn without_a_mesh_the_inner_envelope_is_the_surface() {
+        let surface = feature().surface().unwrap();
+        let mesh = Mesh::from_triangles(&surface);
+        assert!(mesh.is_closed());
+        let inner = oracle::Aabb::from(feature().envelope);
+        assert_eq!(oracle::check_inner_envelope(&mesh, &inner, true), Ok(()));
+    }
+
+    #[test]
+    fn only_grounded_features_have_ground() {
+        let mut feature = feature();
+        feature.mesh = feature
+            .surface()
+            .map(|triangles| Mesh::from_triangles(&triangles));
+        assert_eq!(feature.ground(-10.0).len(), 8);
+        feature.inner.as_mut().unwrap().grounded = false;
+        assert!(feature.ground(-10.0).is_empty());
+    }
+
+    #[test]
+    fn a_mesh_that_names_no_vertex_has_no_surface() {
+        let mut feature = feature();
+        feature.mesh = Some(Mesh {
+            vertices: vec![[0.0; 3]],
+            triangles: vec![[0, 0, 1]],
+        });
+        assert_eq!(feature.surface(), None);
+    }
+}

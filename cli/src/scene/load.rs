@@ -1,0 +1,119 @@
+//! Reading a scene.
+
+use std::collections::HashMap;
+
+use oracle::Mesh;
+use postgres::{GenericClient, Row};
+
+use super::feature::{Feature, InnerEnvelope};
+use super::street::Street;
+use crate::database::quoted;
+use crate::failure::Failure;
+
+/// A scene without its volumes.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// All features, by number.
+    pub features: Vec<Feature>,
+    /// The view region.
+    pub streets: Vec<Street>,
+    /// Whose data it is, as its models say.
+    pub attribution: Option<String>,
+}
+
+/// Reads features, streets and attribution.
+pub fn load(client: &mut impl GenericClient, scene: &str) -> Result<Scene, Failure> {
+    client.execute("SELECT occlusion.require_scene($1)", &[&scene])?;
+    let schema = quoted(scene);
+    Ok(Scene {
+        features: features(client, &schema)?,
+        streets: streets(client, &schema)?,
+        attribution: attribution(client, &schema)?,
+    })
+}
+
+impl Scene {
+    /// Positions of features by number.
+    pub fn positions(&self) -> HashMap<i64, usize> {
+        self.features
+            .iter()
+            .enumerate()
+            .map(|(position, feature)| (feature.id, position))
+            .collect()
+    }
+}
+
+fn features(client: &mut impl GenericClient, schema: &str) -> Result<Vec<Feature>, Failure> {
+    let statement = format!(
+        "SELECT f.id, f.name, f.class, f.envelope, m.vertices, m.triangles, i.box, i.grounded \
+         FROM {schema}.feature AS f \
+         LEFT JOIN {schema}.mesh AS m ON m.feature = f.id \
+         LEFT JOIN {schema}.inner_envelope AS i ON i.feature = f.id \
+         ORDER BY f.id"
+    );
+    Ok(client.query(&statement, &[])?.iter().map(feature).collect())
+}
+
+fn feature(row: &Row) -> Feature {
+    let vertices: Option<Vec<f64>> = row.get(4);
+    let triangles: Option<Vec<i32>> = row.get(5);
+    Feature {
+        id: row.get(0),
+        name: row.get(1),
+        class: row.get(2),
+        envelope: row.get(3),
+        mesh: vertices
+            .zip(triangles)
+            .map(|(vertices, triangles)| mesh(&vertices, &triangles)),
+        inner: row.get::<_, Option<_>>(6).map(|bounds| InnerEnvelope {
+            bounds,
+            grounded: row.get(7),
+        }),
+    }
+}
+
+/// A mesh as the table holds it. What is left over at the end of an array becomes a triangle that
+/// names no vertex, so that it is found at fault and not passed over.
+fn mesh(vertices: &[f64], triangles: &[i32]) -> Mesh {
+    let (points, _) = vertices.as_chunks::<3>();
+    let number = |corner: &i32| u32::try_from(*corner).unwrap_or(u32::MAX);
+    let corners =
+        |triangle: &[i32]| std::array::from_fn(|i| triangle.get(i).map_or(u32::MAX, number));
+    Mesh {
+        vertices: points.to_vec(),
+        triangles: triangles.chunks(3).map(corners).collect(),
+    }
+}
+
+fn streets(client: &mut impl GenericClient, schema: &str) -> Result<Vec<Street>, Failure> {
+    let statement = format!("SELECT area, eye_low, eye_high FROM {schema}.street ORDER BY id");
+    let rows = client.query(&statement, &[])?;
+    Ok(rows
+        .iter()
+        .filter_map(|row| Street::new(row.get(0), row.get(1), row.get(2)))
+        .collect())
+}
+
+/// Whose data the first model says it is: the models of one file say the same.
+fn attribution(client: &mut impl GenericClient, schema: &str) -> Result<Option<String>, Failure> {
+    let statement = format!(
+        "SELECT content FROM {schema}.model WHERE format = 'cityjson' ORDER BY feature LIMIT 1"
+    );
+    let row = client.query_opt(&statement, &[])?;
+    let model = row.and_then(|row| formats::read_city_json("model", row.get(0)).ok());
+    Ok(model.and_then(|model| model.attribution))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn broken_arrays_are_found_at_fault() {
+        let square = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+        assert!(mesh(&square, &[0, 1, 2]).corners().is_some());
+        for wrong in [&[0, 1][..], &[0, 1, 3], &[0, 1, -1], &[0, 1, 2, 0]] {
+            assert_eq!(mesh(&square, wrong).corners(), None, "{wrong:?}");
+        }
+    }
+}

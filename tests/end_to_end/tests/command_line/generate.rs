@@ -1,0 +1,105 @@
+//! Ctrl-C, and what comes after it.
+
+use std::process::Command;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use end_to_end::{TestScene, client, occlusion, start};
+use postgres::NoTls;
+use postgres::error::SqlState;
+
+/// How fast a cancelled procedure must end.
+const AT_ONCE: Duration = Duration::from_secs(1);
+
+/// How long tests wait for something to begin.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// A scene that keeps the procedure busy for long.
+fn busy(test: &str) -> TestScene {
+    let mut scene = TestScene::new(test);
+    let name = scene.name.clone();
+    scene.run(&format!(
+        "SELECT occlusion.generate_city('{name}', 'scattered', 4000, 1)"
+    ));
+    scene
+}
+
+/// Waits until the work on the scene has written something.
+fn wait_for_first_batch(scene: &mut TestScene) {
+    let began = Instant::now();
+    while scene.number("SELECT coalesce(sum(done), 0)::bigint FROM {s}.job") == 0 {
+        assert!(
+            began.elapsed() < PATIENCE,
+            "the procedure did not get going"
+        );
+        thread::sleep(Duration::from_millis(20));
+    }
+}
+
+fn backends_at_work(scene: &mut TestScene) -> i64 {
+    scene.number(
+        "SELECT count(*) FROM pg_catalog.pg_stat_activity AS a JOIN {s}.job AS j ON a.pid = j.backend \
+         WHERE a.state = 'active'",
+    )
+}
+
+/// Volumes of coarse lanes, quickly made: how many there are.
+fn rerun(scene: &mut TestScene) -> i64 {
+    occlusion(&["generate", &scene.name, "--smallest", "25", "--range", "60"]).expect(0);
+    scene.number("SELECT count(*) FROM {s}.occlusion_volume")
+}
+
+#[test]
+fn a_cancelled_call_ends_at_once_and_can_be_repeated() {
+    let mut scene = busy("cancelled");
+    let name = scene.name.clone();
+    let mut worker = client();
+    let token = worker.cancel_token();
+    let call = thread::spawn(move || {
+        let call = "CALL occlusion.generate_occlusion_volumes($1, 0.5)";
+        let error = worker
+            .execute(call, &[&name])
+            .expect_err("the call was cancelled");
+        (error.code().cloned(), Instant::now(), worker)
+    });
+    wait_for_first_batch(&mut scene);
+    let cancelled = Instant::now();
+    token.cancel_query(NoTls).unwrap();
+    let (code, ended, mut worker) = call.join().unwrap();
+    assert_eq!(code, Some(SqlState::QUERY_CANCELED));
+    assert!(
+        ended - cancelled < AT_ONCE,
+        "it took {:?}",
+        ended - cancelled
+    );
+    // The same backend goes on, and what was committed stays.
+    assert_eq!(
+        worker.query_one("SELECT 1", &[]).unwrap().get::<_, i32>(0),
+        1
+    );
+    assert!(scene.number("SELECT count(*) FROM {s}.occlusion_volume") > 0);
+    let first = rerun(&mut scene);
+    assert!(first > 0);
+    assert_eq!(rerun(&mut scene), first);
+}
+
+#[test]
+fn ctrl_c_stops_the_server_too() {
+    let mut scene = busy("ctrl-c");
+    let mut program = start(&["generate", &scene.name, "--smallest", "0.5"]);
+    wait_for_first_batch(&mut scene);
+    let interrupted = Instant::now();
+    let sent = Command::new("kill")
+        .args(["-INT", &program.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(sent.success());
+    let status = program.wait().unwrap();
+    let took = interrupted.elapsed();
+    assert_eq!(status.code(), Some(130));
+    assert!(
+        took < AT_ONCE + Duration::from_millis(500),
+        "it took {took:?}"
+    );
+    assert_eq!(backends_at_work(&mut scene), 0);
+}

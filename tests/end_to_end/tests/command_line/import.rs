@@ -1,0 +1,204 @@
+//! Files into scenes.
+
+use std::fs;
+
+use end_to_end::{City, TestScene, occlusion};
+use tempfile::tempdir;
+
+#[test]
+fn a_city_arrives_whole() {
+    let folder = tempdir().unwrap();
+    let file = City::blocks().write(folder.path());
+    let mut scene = TestScene::new("whole");
+    let name = scene.name.clone();
+    let run = occlusion(&["import", file.to_str().unwrap(), "--scene", &name]).expect(0);
+    assert!(
+        run.stdout.contains("imported 25 features"),
+        "{}",
+        run.stdout
+    );
+    assert!(
+        run.stdout.contains("25, 25 of them on solid ground"),
+        "{}",
+        run.stdout
+    );
+    for (expected, statement) in [
+        (
+            25,
+            "SELECT count(*) FROM {s}.feature WHERE class = 'Building' AND attributes = '{}'",
+        ),
+        (
+            25,
+            "SELECT count(DISTINCT slot) FROM {s}.feature WHERE slot BETWEEN 0 AND 24",
+        ),
+        (
+            25,
+            "SELECT count(*) FROM {s}.mesh WHERE defect IS NULL AND level_of_detail = '2'",
+        ),
+        (
+            25,
+            "SELECT count(*) FROM {s}.model WHERE convert_from(content, 'UTF8')::jsonb ? 'CityObjects'",
+        ),
+        (7415, "SELECT srid::bigint FROM {s}.scene_info"),
+        // Boxes: the three envelopes are one, bit for bit.
+        (
+            25,
+            "SELECT count(*) FROM {s}.feature AS f JOIN {s}.inner_envelope AS i ON i.feature = f.id \
+             WHERE f.envelope OPERATOR(occlusion.=) i.box AND i.grounded",
+        ),
+        (
+            1,
+            "SELECT count(*) FROM {s}.feature WHERE name = 'block 1 2' AND envelope OPERATOR(occlusion.=) \
+             occlusion.box3d(occlusion.point3d(85032, 447064, 0), occlusion.point3d(85052, 447084, 18))",
+        ),
+        (
+            1,
+            "SELECT (count(*) > 8)::int::bigint FROM {s}.street WHERE eye_low = 1.5 AND eye_high = 2",
+        ),
+        // On the crossing, and inside a block.
+        (
+            1,
+            "SELECT count(*) FROM {s}.street WHERE area[1] @> point(85026, 447026)",
+        ),
+        (
+            0,
+            "SELECT count(*) FROM {s}.street WHERE area[1] @> point(85042, 447042)",
+        ),
+    ] {
+        assert_eq!(scene.number(statement), expected, "{statement}");
+    }
+}
+
+#[test]
+fn roads_end_where_buildings_stand() {
+    let folder = tempdir().unwrap();
+    let city = City::default()
+        .block("house", [10.0, 0.0, 0.0], [20.0, 10.0, 8.0])
+        .road("through", [0.0, 2.0], [40.0, 8.0]);
+    let file = city.write(folder.path());
+    let mut scene = TestScene::new("roads");
+    let name = scene.name.clone();
+    occlusion(&["import", file.to_str().unwrap(), "--scene", &name]).expect(0);
+    let inside = "SELECT count(*) FROM {s}.street WHERE area[1] @> point(85000 + 15, 447005)";
+    let beside = "SELECT count(*) FROM {s}.street WHERE area[1] @> point(85000 + 25, 447005)";
+    assert_eq!((scene.number(inside), scene.number(beside)), (0, 1));
+}
+
+#[test]
+fn skywalks_are_not_grounded() {
+    let folder = tempdir().unwrap();
+    let city = City::default()
+        .block("west", [0.0, 0.0, 0.0], [10.0, 10.0, 20.0])
+        .block("walk", [10.0, 2.0, 6.0], [30.0, 8.0, 9.0])
+        .block("east", [30.0, 0.0, 0.0], [40.0, 10.0, 20.0]);
+    let file = city.write(folder.path());
+    let mut scene = TestScene::new("skywalk");
+    let name = scene.name.clone();
+    occlusion(&["import", file.to_str().unwrap(), "--scene", &name]).expect(0);
+    let grounded = "SELECT count(*) FROM {s}.inner_envelope WHERE grounded";
+    let hanging = "SELECT count(*) FROM {s}.inner_envelope AS i JOIN {s}.feature AS f ON f.id = i.feature \
+                   WHERE NOT i.grounded AND f.name = 'walk'";
+    assert_eq!((scene.number(grounded), scene.number(hanging)), (2, 1));
+    // There were no roads.
+    assert!(scene.number("SELECT count(*) FROM {s}.street WHERE name = 'open space'") > 0);
+}
+
+#[test]
+fn hostile_files_leave_nothing_behind() {
+    let good = City::default().block("house", [0.0; 3], [5.0; 3]).text();
+    let cases = [
+        ("empty.json", String::new(), "the file is empty"),
+        ("words.json", "no city".to_owned(), "no json object"),
+        (
+            "truncated.json",
+            good[..good.len() / 2].to_owned(),
+            "not valid json",
+        ),
+        ("old.json", good.replace("\"2.0\"", "\"0.9\""), "version"),
+        (
+            "index.json",
+            good.replace("[[0,4,5,1]]", "[[0,4,99,1]]"),
+            "object \"house\", geometry 0: vertex",
+        ),
+        (
+            "nan.json",
+            good.replace("[5000,0,0]", "[NaN,0,0]"),
+            "not valid json",
+        ),
+        ("huge.json", good.replace("0.001", "1e308"), "huge.json"),
+        ("bytes.json", "\u{0}".to_owned(), "bytes.json"),
+    ];
+    let folder = tempdir().unwrap();
+    let fine = City::default()
+        .block("fine", [0.0; 3], [5.0; 3])
+        .write(folder.path());
+    let mut scene = TestScene::new("hostile");
+    let name = scene.name.clone();
+    for (file, text, expected) in cases {
+        assert_ne!(text, good, "{file} is not hostile");
+        let path = folder.path().join(file);
+        fs::write(&path, text).unwrap();
+        // The good file goes first: it must not stay alone.
+        let files = [fine.to_str().unwrap(), path.to_str().unwrap()];
+        let run = occlusion(&["import", files[0], files[1], "--scene", &name]).expect(2);
+        assert!(
+            run.stderr.contains(expected) && run.stderr.contains(file),
+            "{}",
+            run.stderr
+        );
+        assert!(!run.stderr.contains("panicked"), "{}", run.stderr);
+        assert!(!scene.exists(), "{file}");
+    }
+}
+
+#[test]
+fn features_that_are_there_already_are_refused() {
+    let folder = tempdir().unwrap();
+    let file = City::blocks().write(folder.path());
+    let file = file.to_str().unwrap();
+    let mut scene = TestScene::new("twice");
+    let name = scene.name.clone();
+    let twice = occlusion(&["import", file, file, "--scene", &name]).expect(2);
+    assert!(
+        twice.stderr.contains("object \"block 0 0\""),
+        "{}",
+        twice.stderr
+    );
+    assert!(!scene.exists());
+    occlusion(&["import", file, "--scene", &name]).expect(0);
+    let again = occlusion(&["import", file, "--scene", &name]).expect(2);
+    assert!(
+        again.stderr.contains("holds 25 of these features already"),
+        "{}",
+        again.stderr
+    );
+    let other = occlusion(&["import", file, "--scene", &name, "--srid", "4978"]).expect(2);
+    assert!(
+        other.stderr.contains("has SRID 7415, not 4978"),
+        "{}",
+        other.stderr
+    );
+    assert_eq!(scene.number("SELECT count(*) FROM {s}.feature"), 25);
+    occlusion(&["import", file, "--scene", &name, "--replace"]).expect(0);
+    assert_eq!(scene.number("SELECT count(*) FROM {s}.feature"), 25);
+}
+
+#[test]
+fn a_schema_that_is_no_scene_is_left_alone() {
+    let folder = tempdir().unwrap();
+    let file = City::blocks().write(folder.path());
+    let mut scene = TestScene::new("schema");
+    let name = scene.name.clone();
+    scene.run("CREATE SCHEMA {s}; CREATE TABLE {s}.precious (x int)");
+    for replace in [&[][..], &["--replace"]] {
+        let arguments = [
+            &["import", file.to_str().unwrap(), "--scene", &name][..],
+            replace,
+        ]
+        .concat();
+        let run = occlusion(&arguments).expect(3);
+        assert!(run.stderr.contains("is not a scene"), "{}", run.stderr);
+    }
+    assert_eq!(scene.number("SELECT count(*) FROM {s}.precious"), 0);
+    scene.run("DROP SCHEMA {s} CASCADE");
+}

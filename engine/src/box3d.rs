@@ -18,19 +18,28 @@ impl Box3d {
     /// The box spanned by two opposite corners, given in any order.
     #[must_use]
     pub fn new(corner: DVec3, opposite: DVec3) -> Self {
-        Self { min: corner.min(opposite), max: corner.max(opposite) }
+        Self {
+            min: corner.min(opposite),
+            max: corner.max(opposite),
+        }
     }
 
     /// The smallest box that holds all `points`; `None` when there are none.
     #[must_use]
     pub fn around(points: impl IntoIterator<Item = DVec3>) -> Option<Self> {
-        points.into_iter().map(|p| Self { min: p, max: p }).reduce(|a, b| a.union(&b))
+        points
+            .into_iter()
+            .map(|p| Self { min: p, max: p })
+            .reduce(|a, b| a.union(&b))
     }
 
     /// The smallest box that holds both.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
-        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
     }
 
     /// Edge lengths in metres.
@@ -61,7 +70,13 @@ impl Box3d {
     #[must_use]
     pub fn corners(&self) -> [DVec3; 8] {
         std::array::from_fn(|i| {
-            let pick = |axis: usize| if i >> axis & 1 == 1 { self.max[axis] } else { self.min[axis] };
+            let pick = |axis: usize| {
+                if i >> axis & 1 == 1 {
+                    self.max[axis]
+                } else {
+                    self.min[axis]
+                }
+            };
             DVec3::new(pick(0), pick(1), pick(2))
         })
     }
@@ -88,7 +103,10 @@ impl Box3d {
     /// `None` when nothing would be left.
     #[must_use]
     pub fn expanded(&self, margin: f64) -> Option<Self> {
-        let grown = Self { min: self.min - margin, max: self.max + margin };
+        let grown = Self {
+            min: self.min - margin,
+            max: self.max + margin,
+        };
         grown.min.cmple(grown.max).all().then_some(grown)
     }
 
@@ -101,6 +119,9 @@ impl Box3d {
     /// Euclidean distance in metres between the closed boxes; 0 when they share a point.
     #[must_use]
     pub fn distance(&self, other: &Self) -> f64 {
-        (self.min - other.max).max(other.min - self.max).max(DVec3::ZERO).length()
+        (self.min - other.max)
+            .max(other.min - self.max)
+            .max(DVec3::ZERO)
+            .length()
     }
 }

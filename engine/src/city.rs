@@ -45,9 +45,25 @@ pub fn scattered_city(features: usize, seed: u64) -> BoxCity {
             Box3d::new(foot, foot + size)
         })
         .collect();
-    let area = Rect::new(Coord { x: 0.0, y: STREET[0] }, Coord { x: SIDE, y: STREET[1] });
-    let street = Street { area: area.to_polygon(), eye_low: EYES[0], eye_high: EYES[1] };
-    BoxCity { boxes, streets: vec![street] }
+    let area = Rect::new(
+        Coord {
+            x: 0.0,
+            y: STREET[0],
+        },
+        Coord {
+            x: SIDE,
+            y: STREET[1],
+        },
+    );
+    let street = Street {
+        area: area.to_polygon(),
+        eye_low: EYES[0],
+        eye_high: EYES[1],
+    };
+    BoxCity {
+        boxes,
+        streets: vec![street],
+    }
 }
 
 /// Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators": integer steps only,
@@ -86,7 +102,9 @@ mod tests {
     #[test]
     fn boxes_stand_inside_the_square_and_off_the_street() {
         for found in scattered_city(2000, 1).boxes {
-            assert!(found.min.cmpge(DVec3::ZERO).all() && found.max.x <= SIDE && found.max.y <= SIDE);
+            assert!(
+                found.min.cmpge(DVec3::ZERO).all() && found.max.x <= SIDE && found.max.y <= SIDE
+            );
             assert!(found.max.y <= STREET[0] || found.min.y >= STREET[1]);
             assert!(found.size().min_element() >= EDGE[0]);
             assert!(found.size().max_element() <= EDGE[1]);

@@ -22,7 +22,7 @@ pub use mesh::{
 pub use shadow_region::ShadowRegion;
 pub use umbra::{OCCLUDER_MARGIN, Occluder, umbra_in_band};
 pub use view_region::{
-    LocalGround, Site, Street, ViewRegionOptions, footprint, open_space, streets_from_surfaces,
-    without_footprints,
+    LocalGround, Site, Street, ViewRegionOptions, covers_ground, footprint, open_space,
+    streets_from_surfaces, without_footprints,
 };
 pub use volumes::{Block, OcclusionVolume, VolumeOptions, VolumeSolver};

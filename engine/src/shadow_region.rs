@@ -23,7 +23,13 @@ impl ShadowRegion {
     /// All of `window`, two absolute corners.
     pub(crate) fn new(origin: DVec2, window: [DVec2; 2]) -> Self {
         let [min, max] = window.map(|corner| corner - origin);
-        Self { origin, min, max, sides: [(DVec2::ZERO, 0.0); MOST_SIDES], count: 0 }
+        Self {
+            origin,
+            min,
+            max,
+            sides: [(DVec2::ZERO, 0.0); MOST_SIDES],
+            count: 0,
+        }
     }
 
     /// Keeps what is at most `limit` (relative) on `axis`.

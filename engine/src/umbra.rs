@@ -37,7 +37,10 @@ pub fn umbra_in_band(
 ) -> Option<ShadowRegion> {
     let mut solid = occluder.bounds.expanded(-OCCLUDER_MARGIN)?;
     let origin = solid.center();
-    solid = Box3d { min: solid.min - origin, max: solid.max - origin };
+    solid = Box3d {
+        min: solid.min - origin,
+        max: solid.max - origin,
+    };
     if occluder.grounded {
         solid.min.z = f64::NEG_INFINITY;
     }
@@ -129,17 +132,29 @@ fn tangents(v: DVec2, min: DVec2, max: DVec2) -> impl Iterator<Item = (DVec2, f6
         (None, None) => [None, None],
         (Some((near, _)), None) => [min.y, max.y].map(|y| Some(DVec2::new(near, y))),
         (None, Some((near, _))) => [min.x, max.x].map(|x| Some(DVec2::new(x, near))),
-        (Some((near_x, far_x)), Some((near_y, far_y))) => {
-            [Some(DVec2::new(near_x, far_y)), Some(DVec2::new(far_x, near_y))]
-        }
+        (Some((near_x, far_x)), Some((near_y, far_y))) => [
+            Some(DVec2::new(near_x, far_y)),
+            Some(DVec2::new(far_x, near_y)),
+        ],
     };
     // A finite point well inside, to tell the two sides apart.
-    let inside = DVec2::new((min.x + max.x) * 0.5, max.y - ((max.y - min.y) * 0.5).min(1.0));
-    touched.into_iter().flatten().filter(|touch| touch.is_finite()).map(move |touch| {
-        let normal = (touch - v).perp();
-        let normal = if normal.dot(inside - touch) > 0.0 { -normal } else { normal };
-        (normal, normal.dot(v))
-    })
+    let inside = DVec2::new(
+        (min.x + max.x) * 0.5,
+        max.y - ((max.y - min.y) * 0.5).min(1.0),
+    );
+    touched
+        .into_iter()
+        .flatten()
+        .filter(|touch| touch.is_finite())
+        .map(move |touch| {
+            let normal = (touch - v).perp();
+            let normal = if normal.dot(inside - touch) > 0.0 {
+                -normal
+            } else {
+                normal
+            };
+            (normal, normal.dot(v))
+        })
 }
 
 #[cfg(test)]
@@ -169,11 +184,16 @@ mod tests {
     }
 
     fn hides(occluder: &Occluder, eye: DVec3, occludee: &Box3d, margin: f64) -> bool {
-        let Some(mut solid) = occluder.bounds.expanded(-margin) else { return false };
+        let Some(mut solid) = occluder.bounds.expanded(-margin) else {
+            return false;
+        };
         if occluder.grounded {
             solid.min.z = -1e9;
         }
-        occludee.corners().iter().all(|&corner| blocks(&solid, eye, corner))
+        occludee
+            .corners()
+            .iter()
+            .all(|&corner| blocks(&solid, eye, corner))
     }
 
     fn solid_box(reach: i32, least: i32) -> impl Strategy<Value = Box3d> {
@@ -233,7 +253,11 @@ mod tests {
     #[test]
     fn a_house_does_not_hide_a_sign_on_its_front() {
         let house = Box3d::new(DVec3::ZERO, DVec3::new(10.0, 10.0, 10.0));
-        let occluder = Occluder { feature: 1, bounds: house, grounded: true };
+        let occluder = Occluder {
+            feature: 1,
+            bounds: house,
+            grounded: true,
+        };
         let sign = Box3d::new(DVec3::new(4.0, 0.0, 3.0), DVec3::new(6.0, 0.0, 4.0));
         let region = umbra_in_band(&occluder, &sign, [1.5, 2.0], WINDOW);
         let strip = region.and_then(|r| r.strip(0, -50.0, -49.0));

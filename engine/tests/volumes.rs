@@ -4,7 +4,11 @@
 use engine::{Box3d, Occluder, OcclusionVolume, VolumeOptions, VolumeSolver, scattered_city};
 use glam::DVec3;
 
-const OPTIONS: VolumeOptions = VolumeOptions { smallest: 1.0, worth: 4.0, range: None };
+const OPTIONS: VolumeOptions = VolumeOptions {
+    smallest: 1.0,
+    worth: 4.0,
+    range: None,
+};
 
 /// Whether the open segment meets the open box, by clipping.
 fn blocks(solid: &Box3d, p: DVec3, q: DVec3) -> bool {
@@ -26,14 +30,21 @@ fn blocks(solid: &Box3d, p: DVec3, q: DVec3) -> bool {
 }
 
 fn hides(solid: &Box3d, eye: DVec3, occludee: &Box3d) -> bool {
-    occludee.corners().iter().all(|&corner| blocks(solid, eye, corner))
+    occludee
+        .corners()
+        .iter()
+        .all(|&corner| blocks(solid, eye, corner))
 }
 
 fn solve(boxes: &[Box3d], solver: &VolumeSolver) -> Vec<OcclusionVolume> {
     boxes
         .iter()
         .enumerate()
-        .flat_map(|(i, b)| solver.volumes(i as i64, b, || false).expect("never cancelled"))
+        .flat_map(|(i, b)| {
+            solver
+                .volumes(i as i64, b, || false)
+                .expect("never cancelled")
+        })
         .collect()
 }
 
@@ -41,7 +52,11 @@ fn solver(boxes: &[Box3d], seed: u64) -> VolumeSolver {
     let occluders = boxes
         .iter()
         .enumerate()
-        .map(|(i, &bounds)| Occluder { feature: i as i64, bounds, grounded: true })
+        .map(|(i, &bounds)| Occluder {
+            feature: i as i64,
+            bounds,
+            grounded: true,
+        })
         .collect();
     VolumeSolver::new(occluders, &scattered_city(0, seed).streets, OPTIONS)
 }
@@ -74,13 +89,19 @@ fn volumes_of_the_scattered_city_are_right_and_hide_what_single_boxes_can() {
                     .iter()
                     .enumerate()
                     .any(|(a, occluder)| a != b && hides(occluder, eye, occludee));
-                assert!(single || !hidden[b], "seed {seed}: {b} falsely hidden from {eye}");
+                assert!(
+                    single || !hidden[b],
+                    "seed {seed}: {b} falsely hidden from {eye}"
+                );
                 by_single += usize::from(single);
                 by_volume += usize::from(hidden[b]);
             }
         }
         let share = by_volume as f64 / by_single as f64;
-        println!("seed {seed}: {} volumes hide {share:.4} of {by_single} pairs", volumes.len());
+        println!(
+            "seed {seed}: {} volumes hide {share:.4} of {by_single} pairs",
+            volumes.len()
+        );
         assert!(share >= 0.985, "seed {seed}: {share}");
     }
 }

@@ -14,7 +14,12 @@ pub struct Refusal {
 impl Refusal {
     /// A refusal with its SQLSTATE and message.
     pub fn new(code: PgSqlErrorCode, message: impl Into<String>) -> Self {
-        Self { code, message: message.into(), detail: None, hint: None }
+        Self {
+            code,
+            message: message.into(),
+            detail: None,
+            hint: None,
+        }
     }
 
     /// Adds a sentence of detail.

@@ -1,20 +1,11 @@
 //! The streets of an import.
 
-use engine::{Site, Street, TriangleMesh, ViewRegionOptions};
+use engine::{Site, Street, TriangleMesh, ViewRegionOptions, covers_ground};
 use geo::MultiPolygon;
 use rayon::prelude::*;
 
 use super::model::Model;
 use super::solid::{self, Solid};
-
-/// Classes that cover the ground and do not tell where it is.
-const GROUND_COVER: [&str; 5] = [
-    "LandUse",
-    "PlantCover",
-    "WaterBody",
-    "WaterSurface",
-    "Waterway",
-];
 
 /// What the roads of all files cover, less what solid features stand on.
 pub fn of_roads(model: &Model, solids: &[Solid]) -> Vec<Street> {
@@ -32,7 +23,7 @@ pub fn of_roads(model: &Model, solids: &[Solid]) -> Vec<Street> {
         .collect();
     let in_the_way = || model.features.iter().zip(solids).zip(&footprints);
     let sites: Vec<Site> = in_the_way()
-        .filter(|((feature, _), _)| !GROUND_COVER.contains(&feature.class.as_str()))
+        .filter(|((feature, _), _)| !covers_ground(&feature.class))
         .map(|((_, solid), footprint)| Site {
             footprint: footprint.clone(),
             foot: solid.envelope.min.z,

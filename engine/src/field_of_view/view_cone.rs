@@ -30,7 +30,12 @@ impl ViewCone {
             heading.cos() * pitch.cos(),
             pitch.sin(),
         );
-        Self { eye, axis, half_angle: angle / 2.0, range }
+        Self {
+            eye,
+            axis,
+            half_angle: angle / 2.0,
+            range,
+        }
     }
 
     /// Whether cone and box share a point.
@@ -39,7 +44,10 @@ impl ViewCone {
     /// surface in a face, or on an edge; so it is enough to try those.
     #[must_use]
     pub fn meets(&self, target: &Box3d) -> bool {
-        let local = Box3d { min: target.min - self.eye, max: target.max - self.eye };
+        let local = Box3d {
+            min: target.min - self.eye,
+            max: target.max - self.eye,
+        };
         let nearest = DVec3::ZERO.clamp(local.min, local.max);
         within(nearest.length_squared(), self.range)
             && (self.holds(nearest, RELATIVE_TOLERANCE)
@@ -80,7 +88,13 @@ impl ViewCone {
         let cos_2 = self.half_angle.cos().powi(2);
         let slope = self.axis[axis];
         [(0, 0), (0, 1), (1, 0), (1, 1)].into_iter().any(|(i, j)| {
-            let side = |at: usize, end: usize| if end == 0 { local.min[at] } else { local.max[at] };
+            let side = |at: usize, end: usize| {
+                if end == 0 {
+                    local.min[at]
+                } else {
+                    local.max[at]
+                }
+            };
             let mut point = DVec3::ZERO;
             point[u] = side(u, i);
             point[v] = side(v, j);
@@ -93,7 +107,12 @@ impl ViewCone {
             let (low, high) = (local.min[axis], local.max[axis]);
             [low, high, 0.0_f64.clamp(low, high)]
                 .into_iter()
-                .chain(roots.into_iter().flatten().filter(|s| (low..=high).contains(s)))
+                .chain(
+                    roots
+                        .into_iter()
+                        .flatten()
+                        .filter(|s| (low..=high).contains(s)),
+                )
                 .any(|s| {
                     point[axis] = s;
                     self.holds(point, SURFACE_TOLERANCE)
@@ -155,7 +174,9 @@ mod tests {
                 let mut step = 1.0;
                 while step > 1e-9 {
                     let moved = (0..27)
-                        .map(|i| DVec3::new((i % 3) as f64, (i / 3 % 3) as f64, (i / 9) as f64) - 1.0)
+                        .map(|i| {
+                            DVec3::new((i % 3) as f64, (i / 3 % 3) as f64, (i / 9) as f64) - 1.0
+                        })
                         .map(|d| (best + d * step * target.size()).clamp(target.min, target.max))
                         .min_by(|a, b| miss(*a).total_cmp(&miss(*b)))
                         .unwrap_or(best);
@@ -171,7 +192,10 @@ mod tests {
     }
 
     fn scene() -> impl Strategy<Value = (ViewCone, Box3d)> {
-        let origin = prop_oneof![Just(DVec3::ZERO), Just(DVec3::new(85_000.0, 447_000.0, 3.0))];
+        let origin = prop_oneof![
+            Just(DVec3::ZERO),
+            Just(DVec3::new(85_000.0, 447_000.0, 3.0))
+        ];
         let corner = prop::array::uniform3(-20i32..20).prop_map(|c| DVec3::from(c.map(f64::from)));
         let size = prop::array::uniform3(0i32..15).prop_map(|c| DVec3::from(c.map(f64::from)));
         let view = (0i32..24, 1i32..24, -6i32..7, 1i32..40);

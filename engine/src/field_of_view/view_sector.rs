@@ -24,21 +24,35 @@ impl ViewSector {
     /// full aperture, in radians; `range`, a distance in space, in metres.
     #[must_use]
     pub fn new(eye: DVec3, heading: f64, angle: f64, range: f64) -> Self {
-        Self { eye, heading, half_angle: angle / 2.0, range }
+        Self {
+            eye,
+            heading,
+            half_angle: angle / 2.0,
+            range,
+        }
     }
 
     /// Whether sector and box share a point.
     #[must_use]
     pub fn meets(&self, target: &Box3d) -> bool {
-        let local = Box3d { min: target.min - self.eye, max: target.max - self.eye };
+        let local = Box3d {
+            min: target.min - self.eye,
+            max: target.max - self.eye,
+        };
         let height = 0.0_f64.clamp(local.min.z, local.max.z);
-        if !within(DVec3::ZERO.clamp(local.min, local.max).length_squared(), self.range) {
+        if !within(
+            DVec3::ZERO.clamp(local.min, local.max).length_squared(),
+            self.range,
+        ) {
             return false;
         }
-        self.wedges().into_iter().flatten().any(|(heading, half_angle)| {
-            nearest_2(&wedge_part(&local, heading, half_angle))
-                .is_some_and(|plan_2| within(plan_2 + height * height, self.range))
-        })
+        self.wedges()
+            .into_iter()
+            .flatten()
+            .any(|(heading, half_angle)| {
+                nearest_2(&wedge_part(&local, heading, half_angle))
+                    .is_some_and(|plan_2| within(plan_2 + height * height, self.range))
+            })
     }
 
     /// The sector as one or two convex wedges, each a heading and a half angle.
@@ -47,7 +61,10 @@ impl ViewSector {
             return [Some((self.heading, self.half_angle)), None];
         }
         let half = self.half_angle / 2.0;
-        [Some((self.heading - half, half)), Some((self.heading + half, half))]
+        [
+            Some((self.heading - half, half)),
+            Some((self.heading + half, half)),
+        ]
     }
 }
 
@@ -55,18 +72,19 @@ impl ViewSector {
 fn wedge_part(local: &Box3d, heading: f64, half_angle: f64) -> Vec<DVec2> {
     let (min, max) = (local.min.truncate(), local.max.truncate());
     let rectangle = vec![min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)];
-    [-half_angle, half_angle].into_iter().fold(rectangle, |polygon, turn| {
-        let azimuth = heading + turn;
-        // The inward normal of the side at this azimuth.
-        let inward = DVec2::new(azimuth.cos(), -azimuth.sin()) * -turn.signum();
-        clip(&polygon, inward)
-    })
+    [-half_angle, half_angle]
+        .into_iter()
+        .fold(rectangle, |polygon, turn| {
+            let azimuth = heading + turn;
+            // The inward normal of the side at this azimuth.
+            let inward = DVec2::new(azimuth.cos(), -azimuth.sin()) * -turn.signum();
+            clip(&polygon, inward)
+        })
 }
 
 /// The part of a convex polygon on the inner side of a line through the origin.
 fn clip(polygon: &[DVec2], inward: DVec2) -> Vec<DVec2> {
-    let depth =
-        |p: DVec2| p.dot(inward) + SIDE_TOLERANCE + RELATIVE_TOLERANCE * p.length();
+    let depth = |p: DVec2| p.dot(inward) + SIDE_TOLERANCE + RELATIVE_TOLERANCE * p.length();
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     for (i, &a) in polygon.iter().enumerate() {
         let b = polygon[(i + 1) % polygon.len()];
@@ -91,7 +109,11 @@ fn nearest_2(polygon: &[DVec2]) -> Option<f64> {
         .map(|(a, b)| {
             let along = b - a;
             let t = (-a.dot(along) / along.length_squared()).clamp(0.0, 1.0);
-            if t.is_nan() { a.length_squared() } else { (a + along * t).length_squared() }
+            if t.is_nan() {
+                a.length_squared()
+            } else {
+                (a + along * t).length_squared()
+            }
         })
         .min_by(f64::total_cmp)
 }
@@ -114,7 +136,11 @@ mod tests {
     fn grid(target: &Box3d, steps: usize) -> impl Iterator<Item = DVec3> + use<> {
         let (min, size, side) = (target.min, target.size(), steps + 1);
         (0..side * side * side).map(move |i| {
-            let at = DVec3::new((i % side) as f64, (i / side % side) as f64, (i / side / side) as f64);
+            let at = DVec3::new(
+                (i % side) as f64,
+                (i / side % side) as f64,
+                (i / side / side) as f64,
+            );
             min + size * at / steps as f64
         })
     }
@@ -124,11 +150,18 @@ mod tests {
         let size = prop::array::uniform3(0i32..15).prop_map(|c| DVec3::from(c.map(f64::from)));
         (corner, size, 0i32..24, 1i32..24, 1i32..40, any::<bool>()).prop_map(
             |(corner, size, h, a, r, far)| {
-                let origin =
-                    if far { DVec3::new(85_000.0, 447_000.0, 3.0) } else { DVec3::ZERO };
+                let origin = if far {
+                    DVec3::new(85_000.0, 447_000.0, 3.0)
+                } else {
+                    DVec3::ZERO
+                };
                 let step = 15f64.to_radians();
-                let sector =
-                    ViewSector::new(origin, f64::from(h) * step, f64::from(a) * step, f64::from(r));
+                let sector = ViewSector::new(
+                    origin,
+                    f64::from(h) * step,
+                    f64::from(a) * step,
+                    f64::from(r),
+                );
                 (sector, Box3d::new(origin + corner, origin + corner + size))
             },
         )

@@ -14,6 +14,10 @@ const NEAREST: usize = 4;
 /// roof is not the ground.
 const OUTLIERS: f64 = 0.1;
 
+/// Metres of relief at most, on each side of the median foot: one sunken foot among a few must not
+/// pull the eyes of a whole tile into the ground. Eyes outside the band are answered in full.
+const RELIEF: f64 = 1.0;
+
 /// Where a feature stands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Site {
@@ -66,9 +70,15 @@ impl<'a> SiteIndex<'a> {
     }
 
     /// Lowest and highest ground in and around `rect`, absolute metres: the feet of the sites
-    /// there, less a tenth at each end, or else of the nearest ones. `None` without sites.
+    /// there, less a tenth at each end and what is far from the median, or else of the nearest.
+    /// `None` without sites.
     pub fn ground(&self, rect: &Rect<f64>) -> Option<[f64; 2]> {
         let mut feet: Vec<f64> = self.near(rect, NEARBY).map(|site| site.foot).collect();
+        let relief = if feet.is_empty() {
+            f64::INFINITY
+        } else {
+            RELIEF
+        };
         if feet.is_empty() {
             let center = rect.center();
             let nearest = self
@@ -80,6 +90,20 @@ impl<'a> SiteIndex<'a> {
         feet.sort_unstable_by(f64::total_cmp);
         let last = feet.len().checked_sub(1)?;
         let left_out = (OUTLIERS * last as f64).floor() as usize;
-        Some([feet[left_out], feet[last - left_out]])
+        let median = feet[last / 2];
+        Some([
+            feet[left_out].max(median - relief),
+            feet[last - left_out].min(median + relief),
+        ])
     }
+}
+
+/// Whether features of this class (CityJSON's names) cover the ground without standing in the
+/// way: observers walk on them.
+#[must_use]
+pub fn covers_ground(class: &str) -> bool {
+    matches!(
+        class,
+        "LandUse" | "PlantCover" | "WaterBody" | "WaterSurface" | "Waterway"
+    )
 }

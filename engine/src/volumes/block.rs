@@ -33,7 +33,9 @@ impl Block {
         let mut blocks = Vec::new();
         let mut waiting = vec![streets.iter().collect::<Vec<_>>()];
         while let Some(group) = waiting.pop() {
-            let Some(window) = window(&group) else { continue };
+            let Some(window) = window(&group) else {
+                continue;
+            };
             match split(&group, window) {
                 Some(parts) => waiting.extend(parts),
                 None => blocks.push(Self {
@@ -50,7 +52,10 @@ impl Block {
     #[must_use]
     pub fn eyes(&self) -> Box3d {
         let [min, max] = self.window;
-        Box3d { min: min.extend(self.band[0]), max: max.extend(self.band[1]) }
+        Box3d {
+            min: min.extend(self.band[0]),
+            max: max.extend(self.band[1]),
+        }
     }
 
     /// The axis-aligned box over a lane's interval: `span` along `axis`, `lane` across.
@@ -59,7 +64,10 @@ impl Block {
             0 => DVec3::new(span[i], lane[i], self.band[i]),
             _ => DVec3::new(lane[i], span[i], self.band[i]),
         };
-        Box3d { min: corner(0), max: corner(1) }
+        Box3d {
+            min: corner(0),
+            max: corner(1),
+        }
     }
 }
 
@@ -68,21 +76,31 @@ fn window(group: &[&Street]) -> Option<[DVec2; 2]> {
     group
         .iter()
         .filter_map(|street| street.area.bounding_rect())
-        .map(|r| [DVec2::new(r.min().x, r.min().y), DVec2::new(r.max().x, r.max().y)])
+        .map(|r| {
+            [
+                DVec2::new(r.min().x, r.min().y),
+                DVec2::new(r.max().x, r.max().y),
+            ]
+        })
         .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
 }
 
 /// Lowest and highest eye of a group.
 fn band(group: &[&Street]) -> [f64; 2] {
-    group.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], street| {
-        [low.min(street.eye_low), high.max(street.eye_high)]
-    })
+    group
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], street| {
+            [low.min(street.eye_low), high.max(street.eye_high)]
+        })
 }
 
 /// The two halves of a group that is too large or too hilly, if it can be halved.
 fn split<'a>(group: &[&'a Street], [min, max]: [DVec2; 2]) -> Option<[Vec<&'a Street>; 2]> {
     let [low, high] = band(group);
-    let tallest = group.iter().map(|s| s.eye_high - s.eye_low).fold(0.0, f64::max);
+    let tallest = group
+        .iter()
+        .map(|s| s.eye_high - s.eye_low)
+        .fold(0.0, f64::max);
     let side = (max - min).max_element();
     let hilly = high - low > tallest + MOST_RELIEF && side > LEAST_SIDE;
     if !hilly && side <= MOST_SIDE {
@@ -91,7 +109,11 @@ fn split<'a>(group: &[&'a Street], [min, max]: [DVec2; 2]) -> Option<[Vec<&'a St
     let axis = usize::from(max.y - min.y > max.x - min.x);
     let middle = |street: &Street| {
         street.area.bounding_rect().map_or(0.0, |r| {
-            if axis == 0 { r.center().x } else { r.center().y }
+            if axis == 0 {
+                r.center().x
+            } else {
+                r.center().y
+            }
         })
     };
     let cut = (min[axis] + max[axis]) / 2.0;

@@ -35,11 +35,21 @@ impl Coverage {
         for row in 0..rows {
             let mut run = 0.0;
             for column in 0..columns {
-                run += if filled[row * columns + column] { cell * cell } else { 0.0 };
+                run += if filled[row * columns + column] {
+                    cell * cell
+                } else {
+                    0.0
+                };
                 sums[(row + 1) * stride + column + 1] = sums[row * stride + column + 1] + run;
             }
         }
-        Self { min: window[0], cell, columns, rows, sums }
+        Self {
+            min: window[0],
+            cell,
+            columns,
+            rows,
+            sums,
+        }
     }
 
     /// Street area in square metres within a lane's interval: `span` along `axis`, `lane` across.
@@ -61,13 +71,21 @@ impl Coverage {
         let (mut low, mut high) = (0.0, span[1] - span[0]);
         while high - low > self.cell {
             let middle = (low + high) / 2.0;
-            if empty(span[0], span[0] + middle) { low = middle } else { high = middle }
+            if empty(span[0], span[0] + middle) {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         let start = span[0] + (low - self.cell).max(0.0);
         (low, high) = (0.0, span[1] - start);
         while high - low > self.cell {
             let middle = (low + high) / 2.0;
-            if empty(span[1] - middle, span[1]) { low = middle } else { high = middle }
+            if empty(span[1] - middle, span[1]) {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         let end = span[1] - (low - self.cell).max(0.0);
         (start < end).then_some([start, end])
@@ -77,8 +95,10 @@ impl Coverage {
     fn sum(&self, point: DVec2) -> f64 {
         let most = DVec2::new(self.columns as f64, self.rows as f64);
         let at = ((point - self.min) / self.cell).clamp(DVec2::ZERO, most);
-        let (column, row) =
-            ((at.x as usize).min(self.columns - 1), (at.y as usize).min(self.rows - 1));
+        let (column, row) = (
+            (at.x as usize).min(self.columns - 1),
+            (at.y as usize).min(self.rows - 1),
+        );
         let (s, t) = (at.x - column as f64, at.y - row as f64);
         let base = row * (self.columns + 1) + column;
         let above = base + self.columns + 1;

@@ -63,7 +63,11 @@ impl LaneFiller<'_> {
         let upper = self.cover([middle, lane[1]], &useful);
         halves.pieces.extend(upper.pieces);
         halves.area += upper.area;
-        if halves.score(self.worth) > own.score(self.worth) { halves } else { own }
+        if halves.score(self.worth) > own.score(self.worth) {
+            halves
+        } else {
+            own
+        }
     }
 
     /// Covers what single shadows hold of the full width of the lane, with the fewest intervals;
@@ -95,7 +99,11 @@ impl LaneFiller<'_> {
             if let Some(span) = self.block.coverage.trimmed(self.axis, lane, piece) {
                 let area = self.block.coverage.area(self.axis, lane, span);
                 if area > self.worth {
-                    cover.pieces.push(Piece { occluder, lane, span });
+                    cover.pieces.push(Piece {
+                        occluder,
+                        lane,
+                        span,
+                    });
                     cover.area += area;
                     covered.push(piece);
                     reached = end;
@@ -115,7 +123,9 @@ impl LaneFiller<'_> {
         covered: &[[f64; 2]],
     ) -> Vec<&'s Shadow> {
         let inside = |reach: [f64; 2]| {
-            covered.iter().any(|span| span[0] <= reach[0] && reach[1] <= span[1])
+            covered
+                .iter()
+                .any(|span| span[0] <= reach[0] && reach[1] <= span[1])
         };
         let used = |shadow: &Shadow| own.pieces.iter().any(|p| p.occluder == shadow.occluder);
         shadows
@@ -139,7 +149,10 @@ impl LaneFiller<'_> {
         let mut total = 0.0;
         for [start, end] in reaches {
             if end > reached {
-                total += self.block.coverage.area(self.axis, lane, [start.max(reached), end]);
+                total += self
+                    .block
+                    .coverage
+                    .area(self.axis, lane, [start.max(reached), end]);
                 reached = end;
             }
         }

@@ -33,7 +33,10 @@ impl VolumeOptions {
     /// large scenes enough to keep the volumes of one occludee to some thousands.
     #[must_use]
     pub fn usual_worth(smallest: f64, streets: &[Street]) -> f64 {
-        let area: f64 = streets.iter().map(|street| street.area.unsigned_area()).sum();
+        let area: f64 = streets
+            .iter()
+            .map(|street| street.area.unsigned_area())
+            .sum();
         (LEAST_PIECES * smallest * smallest).max(area / MOST_VOLUMES)
     }
 }
@@ -64,7 +67,10 @@ impl VolumeSolver {
     pub fn new(occluders: Vec<Occluder>, streets: &[Street], options: VolumeOptions) -> Self {
         let entries = occluders.iter().enumerate().map(|(position, occluder)| {
             let Box3d { min, max } = occluder.bounds;
-            GeomWithData::new(Rectangle::from_corners(min.to_array(), max.to_array()), position)
+            GeomWithData::new(
+                Rectangle::from_corners(min.to_array(), max.to_array()),
+                position,
+            )
         });
         Self {
             index: RTree::bulk_load(entries.collect()),
@@ -83,7 +89,11 @@ impl VolumeSolver {
         cancelled: impl Fn() -> bool,
     ) -> Option<Vec<OcclusionVolume>> {
         let mut found = Vec::new();
-        for block in self.blocks.iter().filter(|block| self.is_near(block, envelope)) {
+        for block in self
+            .blocks
+            .iter()
+            .filter(|block| self.is_near(block, envelope))
+        {
             if cancelled() {
                 return None;
             }
@@ -100,7 +110,9 @@ impl VolumeSolver {
 
     /// Whether someone in the block may look at the envelope.
     fn is_near(&self, block: &Block, envelope: &Box3d) -> bool {
-        self.options.range.is_none_or(|range| block.eyes().distance(envelope) <= range)
+        self.options
+            .range
+            .is_none_or(|range| block.eyes().distance(envelope) <= range)
     }
 
     /// The shadows over a block: only occluders between it and the occludee can cast one.
@@ -118,7 +130,10 @@ impl VolumeSolver {
                 let region = umbra_in_band(occluder, envelope, block.band, block.window)?;
                 let [min, max] = region.rectangle();
                 let area = block.coverage.area(0, [min.y, max.y], [min.x, max.x]);
-                (area > self.options.worth).then_some(Shadow { occluder: position, region })
+                (area > self.options.worth).then_some(Shadow {
+                    occluder: position,
+                    region,
+                })
             })
             .collect()
     }
@@ -132,9 +147,17 @@ impl VolumeSolver {
     ) -> (usize, Cover) {
         let shadows: Vec<&Shadow> = shadows.iter().collect();
         let size: DVec2 = block.window[1] - block.window[0];
-        let VolumeOptions { worth, smallest, .. } = self.options;
+        let VolumeOptions {
+            worth, smallest, ..
+        } = self.options;
         let along = |axis: usize| {
-            let filler = LaneFiller { block, axis, worth, smallest, cancelled };
+            let filler = LaneFiller {
+                block,
+                axis,
+                worth,
+                smallest,
+                cancelled,
+            };
             let across = 1 - axis;
             filler.cover([block.window[0][across], block.window[1][across]], &shadows)
         };
@@ -145,6 +168,10 @@ impl VolumeSolver {
             return (1, along(1));
         }
         let (x, y) = (along(0), along(1));
-        if x.score(worth) >= y.score(worth) { (0, x) } else { (1, y) }
+        if x.score(worth) >= y.score(worth) {
+            (0, x)
+        } else {
+            (1, y)
+        }
     }
 }

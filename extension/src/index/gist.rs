@@ -90,8 +90,11 @@ fn box3d_gist_penalty(
         let (original, added) = (key(&*original.as_ptr()), key(&*added.as_ptr()));
         let grown = original.union(&added);
         let by_volume = grown.volume() - original.volume();
-        let growth =
-            if by_volume > 0.0 { by_volume } else { (grown.margin() - original.margin()) * 1e-6 };
+        let growth = if by_volume > 0.0 {
+            by_volume
+        } else {
+            (grown.margin() - original.margin()) * 1e-6
+        };
         penalty.as_ptr().write(growth as f32);
         Internal::from(Some(pg_sys::Datum::from(penalty.as_ptr())))
     }
@@ -149,7 +152,8 @@ unsafe fn key(entry: &pg_sys::GISTENTRY) -> engine::Box3d {
 /// The page must be one of a GiST index.
 unsafe fn is_leaf(page: pg_sys::Page) -> bool {
     // SAFETY: such pages end in GiST's own data.
-    let opaque = unsafe { &*pg_sys::PageGetSpecialPointer(page).cast::<pg_sys::GISTPageOpaqueData>() };
+    let opaque =
+        unsafe { &*pg_sys::PageGetSpecialPointer(page).cast::<pg_sys::GISTPageOpaqueData>() };
     u32::from(opaque.flags) & pg_sys::F_LEAF != 0
 }
 
@@ -164,14 +168,19 @@ fn keys(entries: &Raw<pg_sys::GistEntryVector>, first: usize) -> Vec<engine::Box
     // SAFETY: GiST passes a vector of `n` entries whose keys are of our type.
     unsafe {
         let vector = &*entries.as_ptr();
-        let slots = vector.vector.as_slice(usize::try_from(vector.n).unwrap_or(0));
+        let slots = vector
+            .vector
+            .as_slice(usize::try_from(vector.n).unwrap_or(0));
         slots[first..].iter().map(|entry| key(entry)).collect()
     }
 }
 
 /// The box around some boxes.
 fn around(keys: &[engine::Box3d]) -> engine::Box3d {
-    keys.iter().copied().reduce(|a, b| a.union(&b)).unwrap_or_else(|| unreachable!("no entries"))
+    keys.iter()
+        .copied()
+        .reduce(|a, b| a.union(&b))
+        .unwrap_or_else(|| unreachable!("no entries"))
 }
 
 /// Positions as page offsets, in memory of the current context.
@@ -184,7 +193,8 @@ unsafe fn offsets(positions: &[usize]) -> *mut pg_sys::OffsetNumber {
         let room = pg_sys::palloc(size_of::<pg_sys::OffsetNumber>() * (positions.len() + 1))
             .cast::<pg_sys::OffsetNumber>();
         for (slot, position) in positions.iter().enumerate() {
-            room.add(slot).write(u16::try_from(position + 1).unwrap_or(u16::MAX));
+            room.add(slot)
+                .write(u16::try_from(position + 1).unwrap_or(u16::MAX));
         }
         room
     }

@@ -25,10 +25,14 @@ pub fn split(keys: &[Box3d]) -> [Vec<usize>; 2] {
         })
     });
     let best = candidates.min_by(|a, b| a.2.total_cmp(&b.2));
-    let Some((order, cuts, _)) = best else { unreachable!("there are three axes") };
-    let cut = cuts
-        .iter()
-        .min_by(|a, b| a.overlap.total_cmp(&b.overlap).then(a.margin.total_cmp(&b.margin)));
+    let Some((order, cuts, _)) = best else {
+        unreachable!("there are three axes")
+    };
+    let cut = cuts.iter().min_by(|a, b| {
+        a.overlap
+            .total_cmp(&b.overlap)
+            .then(a.margin.total_cmp(&b.margin))
+    });
     let at = cut.map_or(order.len() / 2, |cut| cut.at);
     [order[..at].to_vec(), order[at..].to_vec()]
 }
@@ -36,7 +40,11 @@ pub fn split(keys: &[Box3d]) -> [Vec<usize>; 2] {
 /// Positions in the order of one end along an axis.
 fn sorted(keys: &[Box3d], axis: usize, by_upper: bool) -> Vec<usize> {
     let ends = |key: &Box3d| {
-        if by_upper { [key.max[axis], key.min[axis]] } else { [key.min[axis], key.max[axis]] }
+        if by_upper {
+            [key.max[axis], key.min[axis]]
+        } else {
+            [key.min[axis], key.max[axis]]
+        }
     };
     let mut order: Vec<usize> = (0..keys.len()).collect();
     order.sort_by(|&a, &b| {
@@ -66,7 +74,11 @@ fn cuts(keys: &[Box3d], order: &[usize]) -> Vec<Cut> {
         .map(|at| {
             let (a, b) = (left[at - 1], right[count - at - 1]);
             let shared = (a.max.min(b.max) - a.min.max(b.min)).max(glam::DVec3::ZERO);
-            Cut { at, overlap: shared.element_product(), margin: a.margin() + b.margin() }
+            Cut {
+                at,
+                overlap: shared.element_product(),
+                margin: a.margin() + b.margin(),
+            }
         })
         .collect()
 }

@@ -38,7 +38,11 @@ fn make_city(
 > {
     let city = city(layout, features, seed);
     TableIterator::new((1..).zip(city.boxes).map(|(number, bounds)| {
-        let vertices = bounds.corners().iter().flat_map(|corner| corner.to_array()).collect();
+        let vertices = bounds
+            .corners()
+            .iter()
+            .flat_map(|corner| corner.to_array())
+            .collect();
         (number, Box3d(bounds), vertices, BOX_TRIANGLES.to_vec())
     }))
 }
@@ -49,11 +53,17 @@ fn make_city_streets(
     layout: &str,
 ) -> TableIterator<
     'static,
-    (name!(area, Vec<String>), name!(eye_low, f64), name!(eye_high, f64)),
+    (
+        name!(area, Vec<String>),
+        name!(eye_low, f64),
+        name!(eye_high, f64),
+    ),
 > {
     let streets = city(layout, 0, 0).streets;
     TableIterator::new(
-        streets.into_iter().map(|s| (polygon::area_text(&s.area), s.eye_low, s.eye_high)),
+        streets
+            .into_iter()
+            .map(|s| (polygon::area_text(&s.area), s.eye_low, s.eye_high)),
     )
 }
 
@@ -66,7 +76,9 @@ fn city(layout: &str, features: i32, seed: i64) -> BoxCity {
         .hint("The layout is 'scattered'.")
         .raise();
     }
-    let count = usize::try_from(features).ok().filter(|_| features <= MOST_FEATURES);
+    let count = usize::try_from(features)
+        .ok()
+        .filter(|_| features <= MOST_FEATURES);
     match count {
         Some(count) => scattered_city(count, seed.cast_unsigned()),
         None => Refusal::new(

@@ -1,21 +1,34 @@
 //! Procedures on scenes: they read tables by SPI, let `engine` compute, and write rows back.
 
 mod city;
+mod job;
 mod occlusion_volumes;
 mod polygon;
 mod procedure;
+mod snapshot;
 mod streets;
 mod view_region;
 mod workers;
 
 use crate::error::Refusal;
+use pgrx::datum::DatumWithOid;
 use pgrx::{PgSqlErrorCode, Spi};
 
 /// Raises an error unless `scene` is a scene of real tables.
 fn require(scene: &str) {
-    if let Err(error) = Spi::run_with_args("SELECT occlusion.require_scene($1)", &[scene.into()]) {
+    run("SELECT occlusion.require_scene($1)", &[scene.into()]);
+}
+
+/// Runs a statement whose result nobody needs.
+fn run(statement: &str, arguments: &[DatumWithOid]) {
+    if let Err(error) = Spi::run_with_args(statement, arguments) {
         failed(&error);
     }
+}
+
+/// A number of rows as SQL has it.
+fn count(number: usize) -> i64 {
+    i64::try_from(number).unwrap_or(i64::MAX)
 }
 
 /// A name quoted for SQL text.
@@ -25,5 +38,9 @@ fn quoted(name: &str) -> String {
 
 /// Raises an SPI failure that is not an SQL error of its own (those unwind by themselves).
 fn failed(error: &pgrx::spi::Error) -> ! {
-    Refusal::new(PgSqlErrorCode::ERRCODE_INTERNAL_ERROR, format!("query failed: {error}")).raise()
+    Refusal::new(
+        PgSqlErrorCode::ERRCODE_INTERNAL_ERROR,
+        format!("query failed: {error}"),
+    )
+    .raise()
 }

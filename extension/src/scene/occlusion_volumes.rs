@@ -1,15 +1,14 @@
 //! `generate_occlusion_volumes`.
 
+use super::job::Job;
 use super::procedure::Procedure;
+use super::snapshot::{Snapshot, Target};
 use super::workers::Workers;
-use super::{failed, quoted, require, streets};
+use super::{count, quoted, require, run, streets};
 use crate::error::Refusal;
-use crate::types::Box3d;
-use engine::{Occluder, OcclusionVolume, Street, VolumeOptions, VolumeSolver};
-use pgrx::datum::DatumWithOid;
-use pgrx::{PgSqlErrorCode, Spi, notice, pg_extern, pg_sys};
+use engine::{OcclusionVolume, Street, VolumeOptions, VolumeSolver};
+use pgrx::{PgSqlErrorCode, notice, pg_extern, pg_sys};
 use rayon::prelude::*;
-use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -32,16 +31,10 @@ fn generate_occlusion_volumes(
     let asked = Asked::checked(smallest, range, worth);
     let mut procedure = Procedure::begin(fcinfo, TASK);
     require(scene);
-    let job = Job::new(scene);
-    let name = quoted(scene);
-    let occluders =
-        occluders(&format!("SELECT feature, box, grounded FROM {name}.inner_envelope"), &[]);
+    let job = Job::new(scene, TASK);
+    let snapshot = Snapshot::read(scene);
+    let targets = &snapshot.targets;
     let streets = streets::read(scene);
-    // Those near each other in turn.
-    let targets = targets(
-        &format!("SELECT id, envelope FROM {name}.feature ORDER BY slot NULLS LAST, id"),
-        &[],
-    );
     if streets.is_empty() && !targets.is_empty() {
         Refusal::new(
             PgSqlErrorCode::ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE,
@@ -55,13 +48,12 @@ fn generate_occlusion_volumes(
     notice!(
         "{} features, {} of them solid, seen from {} streets",
         targets.len(),
-        occluders.len(),
+        snapshot.occluders.len(),
         streets.len()
     );
     let workers = Workers::start();
     let options = asked.options(&streets);
-    let solver = workers.run(|_| VolumeSolver::new(occluders.clone(), &streets, options));
-    let seen = Seen::new(&occluders, &targets);
+    let solver = workers.run(|_| VolumeSolver::new(snapshot.occluders.clone(), &streets, options));
     job.start(targets.len());
     procedure.commit();
 
@@ -70,8 +62,8 @@ fn generate_occlusion_volumes(
     let mut told = 0;
     for (number, batch) in targets.chunks(BATCH).enumerate() {
         let mut volumes = workers.run(|cancelled| solve(&solver, batch, cancelled));
-        seen.drop_changed(scene, batch, &mut volumes);
-        made += job.replace_volumes(batch, &volumes);
+        snapshot.drop_changed(scene, batch, &mut volumes);
+        made += replace_volumes(scene, batch, &volumes);
         let done = (number * BATCH + batch.len()).min(targets.len());
         job.advance(done, made);
         procedure.commit();
@@ -99,7 +91,9 @@ struct Asked {
 
 impl Asked {
     fn checked(smallest: Option<f64>, range: Option<f64>, worth: Option<f64>) -> Self {
-        let Some(smallest) = smallest else { missing("smallest") };
+        let Some(smallest) = smallest else {
+            missing("smallest")
+        };
         Self {
             smallest: positive(smallest, "smallest"),
             range: range.map(|value| positive(value, "range")),
@@ -137,9 +131,6 @@ fn missing(parameter: &str) -> ! {
     .raise()
 }
 
-/// A feature to be hidden: its number and outer envelope.
-type Target = (i64, engine::Box3d);
-
 /// All volumes of a batch of features.
 fn solve(solver: &VolumeSolver, batch: &[Target], cancelled: &AtomicBool) -> Vec<OcclusionVolume> {
     let stop = || cancelled.load(Ordering::Relaxed);
@@ -151,177 +142,43 @@ fn solve(solver: &VolumeSolver, batch: &[Target], cancelled: &AtomicBool) -> Vec
         .collect()
 }
 
-/// The occluders that a query of feature, box, grounded returns.
-fn occluders(query: &str, arguments: &[DatumWithOid]) -> Vec<Occluder> {
-    // A read-only query may not lock rows.
-    let rows = Spi::connect_mut(|client| {
-        client
-            .update(query, None, arguments)?
-            .map(|row| Ok((row.get::<i64>(1)?, row.get::<Box3d>(2)?, row.get::<bool>(3)?)))
-            .collect::<Result<Vec<_>, pgrx::spi::Error>>()
-    });
-    rows.unwrap_or_else(|error| failed(&error))
-        .into_iter()
-        .filter_map(|(feature, bounds, grounded)| {
-            Some(Occluder { feature: feature?, bounds: bounds?.0, grounded: grounded? })
-        })
-        .collect()
-}
-
-/// The features that a query of id, envelope returns.
-fn targets(query: &str, arguments: &[DatumWithOid]) -> Vec<Target> {
-    // A read-only query may not lock rows.
-    let rows = Spi::connect_mut(|client| {
-        client
-            .update(query, None, arguments)?
-            .map(|row| Ok((row.get::<i64>(1)?, row.get::<Box3d>(2)?)))
-            .collect::<Result<Vec<_>, pgrx::spi::Error>>()
-    });
-    rows.unwrap_or_else(|error| failed(&error))
-        .into_iter()
-        .filter_map(|(feature, bounds)| Some((feature?, bounds?.0)))
-        .collect()
-}
-
-/// Features as they were when the work began.
-struct Seen {
-    occluders: HashMap<i64, Occluder>,
-    envelopes: HashMap<i64, engine::Box3d>,
-}
-
-impl Seen {
-    fn new(occluders: &[Occluder], targets: &[Target]) -> Self {
-        Self {
-            occluders: occluders.iter().map(|occluder| (occluder.feature, *occluder)).collect(),
-            envelopes: targets.iter().copied().collect(),
-        }
-    }
-
-    /// Drops the volumes whose features have changed or gone meanwhile. The others' rows stay
-    /// locked until the commit, after which triggers take care of their volumes.
-    fn drop_changed(&self, scene: &str, batch: &[Target], volumes: &mut Vec<OcclusionVolume>) {
-        let names: Vec<i64> = batch.iter().map(|(feature, _)| *feature).collect();
-        let lock = "OPERATOR(pg_catalog.=) ANY ($1) FOR SHARE";
-        let scene = quoted(scene);
-        let envelopes: HashMap<i64, engine::Box3d> = targets(
-            &format!("SELECT id, envelope FROM {scene}.feature WHERE id {lock}"),
-            &[names.into()],
-        )
-        .into_iter()
-        .collect();
-        let mut names: Vec<i64> = volumes.iter().map(|volume| volume.occluder).collect();
-        names.sort_unstable();
-        names.dedup();
-        let occluders: HashMap<i64, Occluder> = occluders(
-            &format!(
-                "SELECT feature, box, grounded FROM {scene}.inner_envelope WHERE feature {lock}"
-            ),
-            &[names.into()],
-        )
-        .into_iter()
-        .map(|occluder| (occluder.feature, occluder))
-        .collect();
-        volumes.retain(|volume| {
-            envelopes.get(&volume.occludee) == self.envelopes.get(&volume.occludee)
-                && occluders.get(&volume.occluder) == self.occluders.get(&volume.occluder)
-        });
-    }
-}
-
-/// The row of `job` that tells others how far this is, and the table that it fills.
-struct Job {
-    scene: String,
-}
-
-impl Job {
-    fn new(scene: &str) -> Self {
-        Self { scene: quoted(scene) }
-    }
-
-    fn start(&self, total: usize) {
-        self.run(
-            &format!(
-                "INSERT INTO {}.job AS j \
-                     (task, backend, started, updated, done, total, made, finished) \
-                 VALUES ($1, pg_catalog.pg_backend_pid(), pg_catalog.clock_timestamp(), \
-                         pg_catalog.clock_timestamp(), 0, $2, 0, false) \
-                 ON CONFLICT (task) DO UPDATE SET backend = EXCLUDED.backend, \
-                     started = EXCLUDED.started, updated = EXCLUDED.updated, done = 0, \
-                     total = EXCLUDED.total, made = 0, finished = false",
-                self.scene
-            ),
-            &[TASK.into(), count(total).into()],
-        );
-    }
-
-    fn advance(&self, done: usize, made: i64) {
-        self.run(
-            &format!(
-                "UPDATE {}.job SET done = $2, made = $3, updated = pg_catalog.clock_timestamp() \
-                 WHERE task OPERATOR(pg_catalog.=) $1",
-                self.scene
-            ),
-            &[TASK.into(), count(done).into(), made.into()],
-        );
-    }
-
-    fn finish(&self) {
-        self.run(
-            &format!(
-                "UPDATE {}.job SET finished = true, updated = pg_catalog.clock_timestamp() \
-                 WHERE task OPERATOR(pg_catalog.=) $1",
-                self.scene
-            ),
-            &[TASK.into()],
-        );
-    }
-
-    /// Replaces the volumes of a batch; returns how many there are now.
-    fn replace_volumes(&self, batch: &[Target], volumes: &[OcclusionVolume]) -> i64 {
-        let features: Vec<i64> = batch.iter().map(|(feature, _)| *feature).collect();
-        self.run(
-            &format!("DELETE FROM {}.occlusion_volume WHERE occludee OPERATOR(pg_catalog.=) ANY ($1)", self.scene),
-            &[features.into()],
-        );
-        let column = |pick: fn(&OcclusionVolume) -> f64| -> Vec<f64> {
-            volumes.iter().map(pick).collect()
-        };
-        let occluders: Vec<i64> = volumes.iter().map(|v| v.occluder).collect();
-        let occludees: Vec<i64> = volumes.iter().map(|v| v.occludee).collect();
-        self.run(
-            &format!(
-                "INSERT INTO {}.occlusion_volume (occluder, occludee, box) \
-                 SELECT v.occluder, v.occludee, \
-                        occlusion.box3d(occlusion.point3d(v.x0, v.y0, v.z0), \
-                                        occlusion.point3d(v.x1, v.y1, v.z1)) \
-                 FROM ROWS FROM (pg_catalog.unnest($1), pg_catalog.unnest($2), \
-                                 pg_catalog.unnest($3), pg_catalog.unnest($4), \
-                                 pg_catalog.unnest($5), pg_catalog.unnest($6), \
-                                 pg_catalog.unnest($7), pg_catalog.unnest($8)) \
-                      AS v (occluder, occludee, x0, y0, z0, x1, y1, z1)",
-                self.scene
-            ),
-            &[
-                occluders.into(),
-                occludees.into(),
-                column(|v| v.bounds.min.x).into(),
-                column(|v| v.bounds.min.y).into(),
-                column(|v| v.bounds.min.z).into(),
-                column(|v| v.bounds.max.x).into(),
-                column(|v| v.bounds.max.y).into(),
-                column(|v| v.bounds.max.z).into(),
-            ],
-        );
-        count(volumes.len())
-    }
-
-    fn run(&self, statement: &str, arguments: &[DatumWithOid]) {
-        if let Err(error) = Spi::run_with_args(statement, arguments) {
-            failed(&error);
-        }
-    }
-}
-
-fn count(number: usize) -> i64 {
-    i64::try_from(number).unwrap_or(i64::MAX)
+/// Replaces the volumes of a batch; returns how many there are now.
+fn replace_volumes(scene: &str, batch: &[Target], volumes: &[OcclusionVolume]) -> i64 {
+    let features: Vec<i64> = batch.iter().map(|(feature, _)| *feature).collect();
+    run(
+        &format!(
+            "DELETE FROM {}.occlusion_volume WHERE occludee OPERATOR(pg_catalog.=) ANY ($1)",
+            quoted(scene)
+        ),
+        &[features.into()],
+    );
+    let column =
+        |pick: fn(&OcclusionVolume) -> f64| -> Vec<f64> { volumes.iter().map(pick).collect() };
+    let occluders: Vec<i64> = volumes.iter().map(|v| v.occluder).collect();
+    let occludees: Vec<i64> = volumes.iter().map(|v| v.occludee).collect();
+    run(
+        &format!(
+            "INSERT INTO {}.occlusion_volume (occluder, occludee, box) \
+             SELECT v.occluder, v.occludee, \
+                    occlusion.box3d(occlusion.point3d(v.x0, v.y0, v.z0), \
+                                    occlusion.point3d(v.x1, v.y1, v.z1)) \
+             FROM ROWS FROM (pg_catalog.unnest($1), pg_catalog.unnest($2), \
+                             pg_catalog.unnest($3), pg_catalog.unnest($4), \
+                             pg_catalog.unnest($5), pg_catalog.unnest($6), \
+                             pg_catalog.unnest($7), pg_catalog.unnest($8)) \
+                  AS v (occluder, occludee, x0, y0, z0, x1, y1, z1)",
+            quoted(scene)
+        ),
+        &[
+            occluders.into(),
+            occludees.into(),
+            column(|v| v.bounds.min.x).into(),
+            column(|v| v.bounds.min.y).into(),
+            column(|v| v.bounds.min.z).into(),
+            column(|v| v.bounds.max.x).into(),
+            column(|v| v.bounds.max.y).into(),
+            column(|v| v.bounds.max.z).into(),
+        ],
+    );
+    count(volumes.len())
 }

@@ -5,13 +5,19 @@ use geo::{Coord, LineString, Polygon};
 /// A ring as core writes it; the closing vertex is left out.
 pub fn ring_text(ring: &LineString<f64>) -> String {
     let vertices = &ring.0[..ring.0.len().saturating_sub(1)];
-    let points: Vec<String> = vertices.iter().map(|c| format!("({:?},{:?})", c.x, c.y)).collect();
+    let points: Vec<String> = vertices
+        .iter()
+        .map(|c| format!("({:?},{:?})", c.x, c.y))
+        .collect();
     format!("({})", points.join(","))
 }
 
 /// The rings of a polygon as core writes them, the outer one first.
 pub fn area_text(area: &Polygon<f64>) -> Vec<String> {
-    std::iter::once(area.exterior()).chain(area.interiors()).map(ring_text).collect()
+    std::iter::once(area.exterior())
+        .chain(area.interiors())
+        .map(ring_text)
+        .collect()
 }
 
 /// The polygon whose rings, the outer one first, core wrote; `None` for other text.
@@ -28,5 +34,8 @@ fn ring(text: &str) -> Option<LineString<f64>> {
         .map(|word| word.parse().ok())
         .collect::<Option<_>>()?;
     let pairs = numbers.chunks_exact(2);
-    pairs.remainder().is_empty().then(|| pairs.map(|c| Coord { x: c[0], y: c[1] }).collect())
+    pairs
+        .remainder()
+        .is_empty()
+        .then(|| pairs.map(|c| Coord { x: c[0], y: c[1] }).collect())
 }

@@ -7,7 +7,10 @@ use pgrx::{PgSqlErrorCode, Spi};
 
 /// All streets of a scene.
 pub fn read(scene: &str) -> Vec<Street> {
-    let query = format!("SELECT area::text[], eye_low, eye_high FROM {}.street", quoted(scene));
+    let query = format!(
+        "SELECT area::text[], eye_low, eye_high FROM {}.street",
+        quoted(scene)
+    );
     let rows = Spi::connect(|client| {
         client
             .select(&query, None, &[])?
@@ -23,7 +26,11 @@ pub fn read(scene: &str) -> Vec<Street> {
     rows.unwrap_or_else(|error| failed(&error))
         .into_iter()
         .map(|(rings, eye_low, eye_high)| match polygon::area(&rings) {
-            Some(area) => Street { area, eye_low, eye_high },
+            Some(area) => Street {
+                area,
+                eye_low,
+                eye_high,
+            },
             None => Refusal::new(
                 PgSqlErrorCode::ERRCODE_DATA_EXCEPTION,
                 format!("area of a street in scene \"{scene}\" is not a polygon"),
@@ -52,5 +59,5 @@ pub fn replace(scene: &str, streets: &[Street]) -> i64 {
         Ok::<_, pgrx::spi::Error>(())
     });
     done.unwrap_or_else(|error| failed(&error));
-    i64::try_from(streets.len()).unwrap_or(i64::MAX)
+    super::count(streets.len())
 }

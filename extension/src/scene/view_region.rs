@@ -2,13 +2,10 @@
 
 use super::{failed, quoted, require, streets};
 use crate::error::Refusal;
-use engine::{Site, TriangleMesh, ViewRegionOptions, footprint, open_space};
+use engine::{Site, TriangleMesh, ViewRegionOptions, covers_ground, footprint, open_space};
 use geo::{Coord, MultiPolygon, Rect};
 use glam::DVec3;
 use pgrx::{PgSqlErrorCode, Spi, pg_extern};
-
-/// Classes that cover the ground without standing in the way.
-const GROUND_COVER: [&str; 5] = ["LandUse", "PlantCover", "WaterBody", "WaterSurface", "Waterway"];
 
 /// Rows fetched at once, to bound memory.
 const BATCH: i64 = 1000;
@@ -33,7 +30,11 @@ fn generate_view_region(scene: &str, eye_low: f64, eye_high: f64, tile: f64) -> 
         .detail("A tile is at least 1 metre wide.")
         .raise();
     }
-    let options = ViewRegionOptions { tile, eye_low, eye_high };
+    let options = ViewRegionOptions {
+        tile,
+        eye_low,
+        eye_high,
+    };
     streets::replace(scene, &open_space(&sites(scene), &options))
 }
 
@@ -57,7 +58,7 @@ fn sites(scene: &str) -> Vec<Site> {
             }
             for row in rows {
                 let class: String = row.get(1)?.unwrap_or_default();
-                if GROUND_COVER.contains(&class.as_str()) {
+                if covers_ground(&class) {
                     continue;
                 }
                 let number = |column: usize| -> Result<f64, pgrx::spi::Error> {
@@ -70,7 +71,10 @@ fn sites(scene: &str) -> Vec<Site> {
                     Some(mesh) => footprint(&mesh),
                     None => rectangle([number(4)?, number(5)?], [number(7)?, number(8)?]),
                 };
-                sites.push(Site { footprint, foot: number(6)? });
+                sites.push(Site {
+                    footprint,
+                    foot: number(6)?,
+                });
             }
         }
     });
@@ -84,7 +88,11 @@ fn mesh(vertices: &[f64], triangles: &[i32]) -> TriangleMesh {
             let start = usize::try_from(number).ok()?.checked_mul(3)?;
             vertices.get(start..start + 3).map(DVec3::from_slice)
         };
-        Some([corner(triangle[0])?, corner(triangle[1])?, corner(triangle[2])?])
+        Some([
+            corner(triangle[0])?,
+            corner(triangle[1])?,
+            corner(triangle[2])?,
+        ])
     }))
 }
 

@@ -40,7 +40,11 @@ fn box3d_in(text: &CStr) -> Box3d {
 #[pg_extern(immutable, strict, parallel_safe)]
 fn box3d_out(value: Box3d) -> CString {
     let corner = |point| Point3d(point).coordinates();
-    super::text_result(format!("BOX3D({}, {})", corner(value.0.min), corner(value.0.max)))
+    super::text_result(format!(
+        "BOX3D({}, {})",
+        corner(value.0.min),
+        corner(value.0.max)
+    ))
 }
 
 #[pg_extern(immutable, strict, parallel_safe)]

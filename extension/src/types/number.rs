@@ -10,7 +10,10 @@ pub fn finite(value: f64, name: &str, type_name: &str) -> Result<f64, Refusal> {
     }
     Err(Refusal::new(
         PgSqlErrorCode::ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE,
-        format!("{name} of {type_name} must be finite, not {}", shortest(value)),
+        format!(
+            "{name} of {type_name} must be finite, not {}",
+            shortest(value)
+        ),
     ))
 }
 
@@ -20,7 +23,11 @@ pub fn shortest(value: f64) -> String {
     if value.is_nan() {
         "NaN".into()
     } else if value.is_infinite() {
-        if value > 0.0 { "Infinity".into() } else { "-Infinity".into() }
+        if value > 0.0 {
+            "Infinity".into()
+        } else {
+            "-Infinity".into()
+        }
     } else if value == 0.0 || (1e-5..1e16).contains(&size) {
         format!("{value}")
     } else {

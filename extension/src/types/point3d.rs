@@ -41,7 +41,10 @@ impl Point3d {
 #[pg_extern(immutable, strict, parallel_safe)]
 fn point3d_in(text: &CStr) -> Point3d {
     let numbers = or_raise(LITERAL.parse(&text.to_string_lossy()));
-    or_raise(Point3d::checked([numbers[0], numbers[1], numbers[2]], "point3d"))
+    or_raise(Point3d::checked(
+        [numbers[0], numbers[1], numbers[2]],
+        "point3d",
+    ))
 }
 
 #[pg_extern(immutable, strict, parallel_safe)]

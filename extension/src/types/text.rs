@@ -26,7 +26,10 @@ impl Literal {
             let more = if shown.len() < text.len() { "…" } else { "" };
             Refusal::new(
                 PgSqlErrorCode::ERRCODE_INVALID_TEXT_REPRESENTATION,
-                format!("invalid input syntax for type {}: \"{shown}{more}\"", self.type_name),
+                format!(
+                    "invalid input syntax for type {}: \"{shown}{more}\"",
+                    self.type_name
+                ),
             )
             .detail(format!("Expected the form {}.", self.example))
         })

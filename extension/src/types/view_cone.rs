@@ -60,13 +60,20 @@ impl ViewCone {
 #[pg_extern(immutable, strict, parallel_safe)]
 fn view_cone_in(text: &CStr) -> ViewCone {
     let n = or_raise(LITERAL.parse(&text.to_string_lossy()));
-    or_raise(ViewCone::checked([n[0], n[1], n[2], n[3], n[4], n[5], n[6]]))
+    or_raise(ViewCone::checked([
+        n[0], n[1], n[2], n[3], n[4], n[5], n[6],
+    ]))
 }
 
 #[pg_extern(immutable, strict, parallel_safe)]
 fn view_cone_out(cone: ViewCone) -> CString {
-    let rest = [cone.heading, cone.angle, cone.range, cone.pitch].map(shortest).join(", ");
-    super::text_result(format!("VIEW_CONE({}, {rest})", cone.observer.coordinates()))
+    let rest = [cone.heading, cone.angle, cone.range, cone.pitch]
+        .map(shortest)
+        .join(", ");
+    super::text_result(format!(
+        "VIEW_CONE({}, {rest})",
+        cone.observer.coordinates()
+    ))
 }
 
 #[pg_extern(immutable, strict, parallel_safe)]

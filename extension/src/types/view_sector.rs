@@ -62,8 +62,13 @@ fn view_sector_in(text: &CStr) -> ViewSector {
 
 #[pg_extern(immutable, strict, parallel_safe)]
 fn view_sector_out(sector: ViewSector) -> CString {
-    let rest = [sector.heading, sector.angle, sector.range].map(shortest).join(", ");
-    super::text_result(format!("VIEW_SECTOR({}, {rest})", sector.observer.coordinates()))
+    let rest = [sector.heading, sector.angle, sector.range]
+        .map(shortest)
+        .join(", ");
+    super::text_result(format!(
+        "VIEW_SECTOR({}, {rest})",
+        sector.observer.coordinates()
+    ))
 }
 
 #[pg_extern(immutable, strict, parallel_safe)]

@@ -35,5 +35,8 @@ pub fn receive<const N: usize>(
 
 /// The bytes to send for some numbers.
 pub fn send(numbers: &[f64]) -> Vec<u8> {
-    numbers.iter().flat_map(|number| number.to_be_bytes()).collect()
+    numbers
+        .iter()
+        .flat_map(|number| number.to_be_bytes())
+        .collect()
 }

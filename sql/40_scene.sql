@@ -228,13 +228,16 @@ BEGIN
         COMMENT ON COLUMN %1$s.job.made IS 'rows written';
         COMMENT ON COLUMN %1$s.job.finished IS 'whether it came to its end';
 
-        CREATE TRIGGER forget_volumes AFTER UPDATE ON %1$s.feature
+        CREATE TRIGGER forget_volumes AFTER UPDATE OR DELETE ON %1$s.feature
             FOR EACH ROW EXECUTE FUNCTION occlusion.forget_feature_volumes();
+        CREATE TRIGGER forget_all_volumes AFTER TRUNCATE ON %1$s.feature
+            FOR EACH STATEMENT EXECUTE FUNCTION occlusion.forget_all_volumes();
         CREATE TRIGGER forget_volumes AFTER UPDATE OR DELETE ON %1$s.inner_envelope
             FOR EACH ROW EXECUTE FUNCTION occlusion.forget_occluder_volumes();
         CREATE TRIGGER forget_all_volumes AFTER TRUNCATE ON %1$s.inner_envelope
             FOR EACH STATEMENT EXECUTE FUNCTION occlusion.forget_all_volumes();
         ALTER TABLE %1$s.feature ENABLE ALWAYS TRIGGER forget_volumes;
+        ALTER TABLE %1$s.feature ENABLE ALWAYS TRIGGER forget_all_volumes;
         ALTER TABLE %1$s.inner_envelope ENABLE ALWAYS TRIGGER forget_volumes;
         ALTER TABLE %1$s.inner_envelope ENABLE ALWAYS TRIGGER forget_all_volumes;
     $ddl$, s, srid);
@@ -243,12 +246,15 @@ $$;
 COMMENT ON FUNCTION occlusion.create_scene(text, integer) IS
     'makes a scene: a schema of that name with the tables of one city';
 
--- Volumes cast by or on a feature whose envelope changed say nothing any more.
+-- Volumes cast by or on a feature whose envelope changed say nothing any more. Foreign keys drop
+-- those of deleted features as well, but not where rows arrive by replication.
 CREATE FUNCTION occlusion.forget_feature_volumes() RETURNS trigger
 LANGUAGE plpgsql SET search_path = pg_catalog, pg_temp AS $$
 BEGIN
-    IF OLD.envelope OPERATOR(occlusion.=) NEW.envelope THEN
-        RETURN NULL;
+    IF TG_OP = 'UPDATE' THEN
+        IF OLD.envelope OPERATOR(occlusion.=) NEW.envelope THEN
+            RETURN NULL;
+        END IF;
     END IF;
     EXECUTE format('DELETE FROM %I.occlusion_volume WHERE occluder = $1 OR occludee = $1', TG_TABLE_SCHEMA)
         USING OLD.id;

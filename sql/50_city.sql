@@ -64,6 +64,7 @@ COMMENT ON FUNCTION occlusion.generate_city(text, text, integer, integer) IS
 CREATE FUNCTION occlusion.generate_view_region(scene text, eye_low float8 DEFAULT 1.5,
                                                eye_high float8 DEFAULT 2.0, tile float8 DEFAULT 50)
 RETURNS bigint
-LANGUAGE c VOLATILE STRICT AS 'MODULE_PATHNAME', 'generate_view_region_wrapper';
+LANGUAGE c VOLATILE STRICT SET search_path = pg_catalog, pg_temp
+AS 'MODULE_PATHNAME', 'generate_view_region_wrapper';
 COMMENT ON FUNCTION occlusion.generate_view_region(text, float8, float8, float8) IS
     'replaces the streets of a scene by the open space between its features: inside their hull, outside every footprint; eye heights in metres above the feet of near features; returns the number of streets';

@@ -8,7 +8,7 @@ use pgrx::{PgSqlErrorCode, Spi};
 /// All streets of a scene.
 pub fn read(scene: &str) -> Vec<Street> {
     let query = format!(
-        "SELECT area::text[], eye_low, eye_high FROM {}.street",
+        "SELECT area::pg_catalog.text[], eye_low, eye_high FROM {}.street",
         quoted(scene)
     );
     let rows = Spi::connect(|client| {
@@ -44,7 +44,7 @@ pub fn read(scene: &str) -> Vec<Street> {
 pub fn replace(scene: &str, streets: &[Street]) -> i64 {
     let scene = quoted(scene);
     let insert = format!(
-        "INSERT INTO {scene}.street (name, area, eye_low, eye_high) VALUES ('open space', $1::polygon[], $2, $3)"
+        "INSERT INTO {scene}.street (name, area, eye_low, eye_high) VALUES ('open space', $1::pg_catalog.polygon[], $2, $3)"
     );
     let done = Spi::connect_mut(|client| {
         client.update(&format!("DELETE FROM {scene}.street"), None, &[])?;

@@ -246,6 +246,22 @@ $$;
 COMMENT ON FUNCTION occlusion.create_scene(text, integer) IS
     'makes a scene: a schema of that name with the tables of one city';
 
+-- Raises an error where row security would keep volumes from being dropped: those that a role cannot
+-- see would go on hiding what it edits.
+CREATE FUNCTION occlusion.require_all_volumes(scene name) RETURNS void
+LANGUAGE plpgsql STABLE STRICT SET search_path = pg_catalog, pg_temp AS $$
+BEGIN
+    IF row_security_active(format('%I.occlusion_volume', scene)) THEN
+        RAISE EXCEPTION 'row security hides occlusion volumes of scene "%"', scene
+            USING ERRCODE = 'insufficient_privilege',
+                  DETAIL = 'An edit must drop every volume that it invalidates.',
+                  HINT = 'Edit as the owner of the scene, or as a role with BYPASSRLS.';
+    END IF;
+END
+$$;
+COMMENT ON FUNCTION occlusion.require_all_volumes(name) IS
+    'raises an error where row security would keep an edit from dropping volumes';
+
 -- Volumes cast by or on a feature whose envelope changed say nothing any more. Foreign keys drop
 -- those of deleted features as well, but not where rows arrive by replication.
 CREATE FUNCTION occlusion.forget_feature_volumes() RETURNS trigger
@@ -256,6 +272,7 @@ BEGIN
             RETURN NULL;
         END IF;
     END IF;
+    PERFORM occlusion.require_all_volumes(TG_TABLE_SCHEMA);
     EXECUTE format('DELETE FROM %I.occlusion_volume WHERE occluder = $1 OR occludee = $1', TG_TABLE_SCHEMA)
         USING OLD.id;
     RETURN NULL;
@@ -266,6 +283,7 @@ COMMENT ON FUNCTION occlusion.forget_feature_volumes() IS 'trigger: drops the vo
 CREATE FUNCTION occlusion.forget_occluder_volumes() RETURNS trigger
 LANGUAGE plpgsql SET search_path = pg_catalog, pg_temp AS $$
 BEGIN
+    PERFORM occlusion.require_all_volumes(TG_TABLE_SCHEMA);
     EXECUTE format('DELETE FROM %I.occlusion_volume WHERE occluder = $1', TG_TABLE_SCHEMA)
         USING OLD.feature;
     RETURN NULL;
@@ -276,6 +294,7 @@ COMMENT ON FUNCTION occlusion.forget_occluder_volumes() IS 'trigger: drops the v
 CREATE FUNCTION occlusion.forget_all_volumes() RETURNS trigger
 LANGUAGE plpgsql SET search_path = pg_catalog, pg_temp AS $$
 BEGIN
+    PERFORM occlusion.require_all_volumes(TG_TABLE_SCHEMA);
     EXECUTE format('DELETE FROM %I.occlusion_volume', TG_TABLE_SCHEMA);
     RETURN NULL;
 END

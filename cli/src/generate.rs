@@ -39,7 +39,8 @@ pub struct Generate {
     /// How far observers will look at most, metres; without it any distance
     #[arg(long, value_name = "METRES")]
     range: Option<f64>,
-    /// Square metres of street that each volume must add; without it 4 times the smallest squared
+    /// Square metres of street that each volume must add; without it the larger of 4 times the
+    /// smallest squared and a 20,000th of the street area
     #[arg(long, value_name = "M2")]
     worth: Option<f64>,
     #[command(flatten)]

@@ -268,6 +268,16 @@ FROM occlusion.visible_features('regress_row', 'POINT(15 -5 1.75)', 100);
 RESET ROLE;
 SELECT public.same_answers() AS t;
 
+-- Volumes that row security hides from an editor must not survive its edit: the edit is refused.
+GRANT SELECT, UPDATE ON regress_row.feature TO regress_reader;
+GRANT SELECT, DELETE ON regress_row.occlusion_volume TO regress_reader;
+ALTER TABLE regress_row.occlusion_volume ENABLE ROW LEVEL SECURITY;
+CREATE POLICY none ON regress_row.occlusion_volume USING (false);
+SET ROLE regress_reader;
+SELECT pg_temp.outcome($$UPDATE regress_row.feature SET envelope = 'BOX3D(14 -3 0, 16 -1 200)' WHERE id = 4$$);
+RESET ROLE;
+SELECT envelope = 'BOX3D(14 -3 0, 16 -1 2)'::occlusion.box3d AS t FROM regress_row.feature WHERE id = 4;
+
 SELECT NOT is_called AS t FROM public.ran;
 SELECT occlusion.drop_scene('regress_row');
 REVOKE USAGE ON SCHEMA occlusion FROM regress_nobody, regress_reader;

@@ -21,6 +21,22 @@ pub fn in_range(eye: DVec3, range: f64, target: &Box3d) -> bool {
     within(target.distance_to_point(eye).powi(2), range)
 }
 
+/// The part of a box that may be within range of the eye, relative to the eye; `None` when no
+/// point is. Boxes far larger than the range are cut to twice the range, a cut that no point in
+/// range can notice: rounding over their full extent would lose what is near.
+fn near_part(eye: DVec3, range: f64, target: &Box3d) -> Option<Box3d> {
+    let reach = DVec3::splat(2.0 * range);
+    let local = Box3d {
+        min: target.min - eye,
+        max: target.max - eye,
+    };
+    let nearest = DVec3::ZERO.clamp(local.min, local.max);
+    within(nearest.length_squared(), range).then(|| Box3d {
+        min: local.min.max(-reach),
+        max: local.max.min(reach),
+    })
+}
+
 /// Whether a squared distance is within `range`.
 fn within(distance_2: f64, range: f64) -> bool {
     distance_2 <= range * range * (1.0 + RELATIVE_TOLERANCE)

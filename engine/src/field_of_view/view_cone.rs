@@ -1,6 +1,6 @@
 //! [`ViewCone`], a circular cone with a range.
 
-use super::{RELATIVE_TOLERANCE, within};
+use super::{RELATIVE_TOLERANCE, near_part, within};
 use crate::Box3d;
 use glam::{DMat3, DVec3};
 
@@ -44,15 +44,13 @@ impl ViewCone {
     /// surface in a face, or on an edge; so it is enough to try those.
     #[must_use]
     pub fn meets(&self, target: &Box3d) -> bool {
-        let local = Box3d {
-            min: target.min - self.eye,
-            max: target.max - self.eye,
+        let Some(local) = near_part(self.eye, self.range, target) else {
+            return false;
         };
         let nearest = DVec3::ZERO.clamp(local.min, local.max);
-        within(nearest.length_squared(), self.range)
-            && (self.holds(nearest, RELATIVE_TOLERANCE)
-                || (0..3).any(|axis| self.meets_faces(&local, axis))
-                || (0..3).any(|axis| self.meets_edges(&local, axis)))
+        self.holds(nearest, RELATIVE_TOLERANCE)
+            || (0..3).any(|axis| self.meets_faces(&local, axis))
+            || (0..3).any(|axis| self.meets_edges(&local, axis))
     }
 
     /// Whether the point `q`, relative to the eye, is in the cone.
@@ -236,6 +234,18 @@ mod tests {
         assert!(cone.meets(&wall));
         assert!(!ViewCone::new(DVec3::ZERO, 3.0, 0.02, 100.0, 0.0).meets(&wall));
         assert!(!ViewCone::new(DVec3::ZERO, 0.0, 0.02, 9.99, 0.0).meets(&wall));
+    }
+
+    #[test]
+    fn a_box_of_enormous_extent_is_met_where_a_small_part_of_it_is() {
+        let small = Box3d::new(DVec3::new(108.0, 108.0, 0.0), DVec3::new(109.0, 109.0, 1.0));
+        let large = Box3d::new(
+            DVec3::new(-1e15, 0.0, -1.0),
+            DVec3::new(1e300, 1e15 + 1.0, 50.0),
+        );
+        let eye = DVec3::new(110.0, 110.0, 1.5);
+        let cone = ViewCone::new(eye, 225f64.to_radians(), 0.9, 5.0, -0.4);
+        assert!(large.contains(&small) && cone.meets(&small) && cone.meets(&large));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! [`ViewSector`], the field of view of the 2004 report: a horizontal sector of any pitch.
 
-use super::{RELATIVE_TOLERANCE, within};
+use super::{RELATIVE_TOLERANCE, near_part, within};
 use crate::Box3d;
 use glam::{DVec2, DVec3};
 use std::f64::consts::FRAC_PI_2;
@@ -35,17 +35,10 @@ impl ViewSector {
     /// Whether sector and box share a point.
     #[must_use]
     pub fn meets(&self, target: &Box3d) -> bool {
-        let local = Box3d {
-            min: target.min - self.eye,
-            max: target.max - self.eye,
+        let Some(local) = near_part(self.eye, self.range, target) else {
+            return false;
         };
         let height = 0.0_f64.clamp(local.min.z, local.max.z);
-        if !within(
-            DVec3::ZERO.clamp(local.min, local.max).length_squared(),
-            self.range,
-        ) {
-            return false;
-        }
         self.wedges()
             .into_iter()
             .flatten()
@@ -198,6 +191,18 @@ mod tests {
             assert!(sector.meets(&above));
             assert!(!ViewSector::new(DVec3::ZERO, f64::from(heading), 0.3, 4.9).meets(&above));
         }
+    }
+
+    #[test]
+    fn a_box_of_enormous_extent_is_met_where_a_small_part_of_it_is() {
+        let small = Box3d::new(DVec3::new(108.0, 108.0, 0.0), DVec3::new(109.0, 109.0, 1.0));
+        let large = Box3d::new(
+            DVec3::new(-1e15, 0.0, -1.0),
+            DVec3::new(1e300, 1e15 + 1.0, 50.0),
+        );
+        let eye = DVec3::new(110.0, 110.0, 0.5);
+        let sector = ViewSector::new(eye, 225f64.to_radians(), 0.02, 5.0);
+        assert!(large.contains(&small) && sector.meets(&small) && sector.meets(&large));
     }
 
     #[test]

@@ -16,7 +16,7 @@ pub fn read(scene: &str) -> Vec<Street> {
             .select(&query, None, &[])?
             .map(|row| {
                 Ok((
-                    row.get::<Vec<String>>(1)?.unwrap_or_default(),
+                    row.get::<Vec<Option<String>>>(1)?.unwrap_or_default(),
                     row.get::<f64>(2)?.unwrap_or_default(),
                     row.get::<f64>(3)?.unwrap_or_default(),
                 ))
@@ -25,17 +25,23 @@ pub fn read(scene: &str) -> Vec<Street> {
     });
     rows.unwrap_or_else(|error| failed(&error))
         .into_iter()
-        .map(|(rings, eye_low, eye_high)| match polygon::area(&rings) {
-            Some(area) => Street {
-                area,
-                eye_low,
-                eye_high,
-            },
-            None => Refusal::new(
-                PgSqlErrorCode::ERRCODE_DATA_EXCEPTION,
-                format!("area of a street in scene \"{scene}\" is not a polygon"),
-            )
-            .raise(),
+        .map(|(rings, eye_low, eye_high)| {
+            match rings
+                .into_iter()
+                .collect::<Option<Vec<_>>>()
+                .and_then(|rings| polygon::area(&rings))
+            {
+                Some(area) => Street {
+                    area,
+                    eye_low,
+                    eye_high,
+                },
+                None => Refusal::new(
+                    PgSqlErrorCode::ERRCODE_DATA_EXCEPTION,
+                    format!("area of a street in scene \"{scene}\" holds a null ring"),
+                )
+                .raise(),
+            }
         })
         .collect()
 }

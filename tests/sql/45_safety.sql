@@ -276,7 +276,7 @@ CREATE POLICY none ON regress_row.occlusion_volume USING (false);
 SET ROLE regress_reader;
 SELECT pg_temp.outcome($$UPDATE regress_row.feature SET envelope = 'BOX3D(14 -3 0, 16 -1 200)' WHERE id = 4$$);
 RESET ROLE;
-SELECT envelope = 'BOX3D(14 -3 0, 16 -1 2)'::occlusion.box3d AS t FROM regress_row.feature WHERE id = 4;
+SELECT envelope OPERATOR(occlusion.=) 'BOX3D(14 -3 0, 16 -1 2)'::occlusion.box3d AS t FROM regress_row.feature WHERE id = 4;
 
 SELECT NOT is_called AS t FROM public.ran;
 SELECT occlusion.drop_scene('regress_row');

@@ -94,13 +94,19 @@ fn band(group: &[&Street]) -> [f64; 2] {
         })
 }
 
-/// The two halves of a group that is too large or too hilly, if it can be halved.
+/// The two parts of a group that is too large or too uneven, if it can be parted: streets whose own
+/// band is far from usual go apart, so as not to loosen the volumes of the others.
 fn split<'a>(group: &[&'a Street], [min, max]: [DVec2; 2]) -> Option<[Vec<&'a Street>; 2]> {
+    let height = |street: &Street| street.eye_high - street.eye_low;
+    let mut heights: Vec<f64> = group.iter().map(|street| height(street)).collect();
+    heights.sort_by(f64::total_cmp);
+    let usual = heights[heights.len() / 2] + MOST_RELIEF;
+    let (tall, others): (Vec<_>, Vec<_>) = group.iter().partition(|s| height(s) > usual);
+    if !tall.is_empty() {
+        return Some([tall, others]);
+    }
     let [low, high] = band(group);
-    let tallest = group
-        .iter()
-        .map(|s| s.eye_high - s.eye_low)
-        .fold(0.0, f64::max);
+    let tallest = heights[heights.len() - 1];
     let side = (max - min).max_element();
     let hilly = high - low > tallest + MOST_RELIEF && side > LEAST_SIDE;
     if !hilly && side <= MOST_SIDE {

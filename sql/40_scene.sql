@@ -246,10 +246,10 @@ $$;
 COMMENT ON FUNCTION occlusion.create_scene(text, integer) IS
     'makes a scene: a schema of that name with the tables of one city';
 
--- Raises an error where row security would keep volumes from being dropped: those that a role cannot
--- see would go on hiding what it edits.
+-- Raises an error where an edit could not drop all its volumes, because row security or an old
+-- snapshot keeps some out of sight: they would go on hiding what was edited.
 CREATE FUNCTION occlusion.require_all_volumes(scene name) RETURNS void
-LANGUAGE plpgsql STABLE STRICT SET search_path = pg_catalog, pg_temp AS $$
+LANGUAGE plpgsql VOLATILE STRICT SET search_path = pg_catalog, pg_temp AS $$
 BEGIN
     IF row_security_active(format('%I.occlusion_volume', scene)) THEN
         RAISE EXCEPTION 'row security hides occlusion volumes of scene "%"', scene
@@ -257,10 +257,15 @@ BEGIN
                   DETAIL = 'An edit must drop every volume that it invalidates.',
                   HINT = 'Edit as the owner of the scene, or as a role with BYPASSRLS.';
     END IF;
+    -- An old snapshot does not show volumes computed since, but locking this row, which every batch
+    -- of them updates, fails then (40001).
+    IF current_setting('transaction_isolation') <> 'read committed' THEN
+        EXECUTE format('SELECT FROM %I.scene_info FOR SHARE', scene);
+    END IF;
 END
 $$;
 COMMENT ON FUNCTION occlusion.require_all_volumes(name) IS
-    'raises an error where row security would keep an edit from dropping volumes';
+    'raises an error where row security or an old snapshot would keep an edit from dropping volumes';
 
 -- Volumes cast by or on a feature whose envelope changed say nothing any more. Foreign keys drop
 -- those of deleted features as well, but not where rows arrive by replication.

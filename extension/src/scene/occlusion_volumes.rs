@@ -64,6 +64,7 @@ fn generate_occlusion_volumes(
         let mut volumes = workers.run(|cancelled| solve(&solver, batch, cancelled));
         snapshot.drop_changed(scene, batch, &mut volumes);
         made += replace_volumes(scene, batch, &volumes);
+        touch(scene);
         let done = (number * BATCH + batch.len()).min(targets.len());
         job.advance(done, made);
         procedure.commit();
@@ -140,6 +141,16 @@ fn solve(solver: &VolumeSolver, batch: &[Target], cancelled: &AtomicBool) -> Vec
             solver.volumes(*feature, envelope, stop).unwrap_or_default()
         })
         .collect()
+}
+
+/// Updates the one row of `scene_info`, so that an edit whose snapshot is older than this batch
+/// fails rather than overlooks its volumes (`require_all_volumes` in `sql/40_scene.sql`).
+fn touch(scene: &str) {
+    let scene = quoted(scene);
+    run(
+        &format!("UPDATE {scene}.scene_info SET format_version = format_version"),
+        &[],
+    );
 }
 
 /// Replaces the volumes of a batch; returns how many there are now.

@@ -103,3 +103,32 @@ fn ctrl_c_stops_the_server_too() {
     );
     assert_eq!(backends_at_work(&mut scene), 0);
 }
+
+#[test]
+fn an_edit_on_a_snapshot_older_than_the_volumes_is_refused() {
+    let mut scene = TestScene::new("old snapshot");
+    let name = scene.name.clone();
+    scene.run(&format!(
+        "SELECT occlusion.generate_city('{name}', 'scattered', 100, 1)"
+    ));
+    let grow = format!(
+        "UPDATE \"{name}\".feature SET envelope = occlusion.expand(envelope, 1) \
+         WHERE id = (SELECT occludee FROM \"{name}\".occlusion_volume \
+                     UNION ALL SELECT 1 LIMIT 1)"
+    );
+    let begin =
+        format!("BEGIN ISOLATION LEVEL REPEATABLE READ; SELECT count(*) FROM \"{name}\".feature");
+    let mut editor = client();
+    editor.batch_execute(&begin).expect("a snapshot is taken");
+    scene.run(&format!(
+        "CALL occlusion.generate_occlusion_volumes('{name}')"
+    ));
+    let error = editor.batch_execute(&grow).expect_err("too old");
+    assert_eq!(error.code(), Some(&SqlState::T_R_SERIALIZATION_FAILURE));
+    editor
+        .batch_execute("ROLLBACK")
+        .expect("it can be repeated");
+    editor.batch_execute(&begin).expect("a snapshot is taken");
+    editor.batch_execute(&grow).expect("new enough");
+    editor.batch_execute("COMMIT").expect("committed");
+}

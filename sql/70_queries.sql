@@ -1,7 +1,8 @@
 -- Visibility queries.
 
 -- The statement behind visible_features. Parameters: $1 the eye; $2 the field of view, or the
--- range when all round. Margin: an eye within a millimetre of a solid counts as inside it.
+-- range when all round. Margins: an eye within a millimetre of a solid counts as inside it, and the
+-- box that preselects all round is a millimetre larger, so that its rounding loses nothing in range.
 CREATE FUNCTION occlusion.visible_features_statement(scene text, all_round boolean) RETURNS text
 LANGUAGE sql STABLE STRICT PARALLEL SAFE
 SET search_path = pg_catalog, pg_temp AS $$
@@ -29,7 +30,7 @@ SET search_path = pg_catalog, pg_temp AS $$
               WHERE v.box OPERATOR(occlusion.@>) $1
                 AND (SELECT eye.in_view_region FROM eye))
     $q$, scene, CASE WHEN all_round
-        THEN 'f.envelope OPERATOR(occlusion.&&) occlusion.expand(occlusion.box3d($1, $1), $2)'
+        THEN 'f.envelope OPERATOR(occlusion.&&) occlusion.expand(occlusion.box3d($1, $1), $2 + 0.001)'
              ' AND f.envelope OPERATOR(occlusion.<->) $1 <= $2 * (1 + 1e-12)'
         ELSE 'f.envelope OPERATOR(occlusion.&&) $2' END)
 $$;

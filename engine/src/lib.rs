@@ -8,6 +8,7 @@ mod city;
 mod field_of_view;
 mod mesh;
 mod shadow_region;
+mod solid_column;
 mod umbra;
 mod view_region;
 mod volumes;
@@ -20,6 +21,7 @@ pub use mesh::{
     inner_envelope, triangulate,
 };
 pub use shadow_region::ShadowRegion;
+pub use solid_column::SolidColumn;
 pub use umbra::{OCCLUDER_MARGIN, Occluder, umbra_in_band};
 pub use view_region::{
     LocalGround, Site, Street, ViewRegionOptions, covers_ground, footprint, open_space,

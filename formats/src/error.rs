@@ -41,6 +41,21 @@ impl FormatError {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Problem {
+    /// The input gave no more bytes.
+    #[error("cannot read: {message}")]
+    Unreadable {
+        /// The system's words.
+        message: String,
+    },
+    /// None of the formats that are known.
+    #[error("the format is not known")]
+    UnknownFormat,
+    /// Something that the format allows and the reader does not take.
+    #[error("{what} is not supported")]
+    Unsupported {
+        /// What was found, values quoted.
+        what: String,
+    },
     /// Nothing but white space.
     #[error("the file is empty")]
     Empty,
@@ -129,6 +144,14 @@ pub enum Problem {
         /// The most that is read.
         limit: u64,
     },
+}
+
+impl From<std::io::Error> for Problem {
+    fn from(error: std::io::Error) -> Self {
+        Self::Unreadable {
+            message: error.to_string(),
+        }
+    }
 }
 
 /// A place in a file, from coarse to fine.

@@ -1,14 +1,29 @@
-//! Readers of city models. Each format has a folder of its own, and each gives the same
-//! [`SceneDescription`]: features with their surfaces by level of detail, streets, and what was
-//! left out and why. Readers take bytes and do no I/O; bad input gives a [`FormatError`] that names
-//! the file, the line and the object, and never a panic. So far: CityJSON 1.1, 2.0 and CityJSONSeq.
+//! Readers and writers of city models. Each format has a folder of its own. Every reader gives the
+//! same [`SceneDescription`], in batches: features with their surfaces by level of detail, streets,
+//! and what was left out and why. Readers do no I/O of their own; bad input gives a [`FormatError`]
+//! that names the file and the place in it, and never a panic.
 
 #![forbid(unsafe_code)]
 
 mod cityjson;
 mod error;
+mod format;
+mod geojson;
+mod gltf;
+mod input;
+mod limits;
+mod obj;
+mod osm_pbf;
+mod placement;
+mod ply;
 mod scene;
+mod vrml;
 
-pub use cityjson::read_city_json;
 pub use error::{FormatError, Problem};
-pub use scene::{Feature, Geometry, SceneDescription, Skipped, Street, Surface};
+pub use format::{Format, read, read_bytes};
+pub use input::{Input, ReadOptions, Sink};
+pub use placement::Placement;
+pub use scene::{
+    Changed, Feature, Geometry, Material, Model, Part, SceneDescription, Semantic, Shape, Skipped,
+    Street, Surface,
+};

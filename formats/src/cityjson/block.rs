@@ -2,27 +2,33 @@
 //! streets and what is skipped.
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
-use super::appearance::Appearance;
 use super::geometry::read_geometry;
 use super::header::Header;
 use super::hierarchy::Hierarchy;
 use super::json::Members;
-use super::limits::Budget;
 use super::object::CityObject;
-use super::source::Excerpt;
 use super::vertices::Vertices;
 use crate::error::{FormatError, Location, Problem, quote};
-use crate::scene::{Feature, Geometry, SceneDescription, Skipped, Street, Surface};
+use crate::limits::Budget;
+use crate::scene::{Feature, Geometry, SceneDescription, Shape, Skipped, Street, Surface};
 
 /// A scene under way.
 #[derive(Debug)]
-pub(super) struct SceneBuilder<'a, 'b> {
-    header: &'b Header<'a>,
+pub(super) struct SceneBuilder<'b> {
+    header: &'b Header,
     budget: Budget,
     scene: SceneDescription,
     /// Identifiers so far, since lines are read one by one.
     ids: HashSet<String>,
+}
+
+/// Objects with what their geometries refer to.
+struct Objects<'a, 'b> {
+    objects: &'b [CityObject<'a>],
+    hierarchy: &'b Hierarchy,
+    vertices: &'b Vertices,
 }
 
 /// The surfaces of a root and its descendants.
@@ -33,9 +39,9 @@ struct FamilyGeometry {
     why_none: &'static str,
 }
 
-impl<'a, 'b> SceneBuilder<'a, 'b> {
+impl<'b> SceneBuilder<'b> {
     /// A scene without objects yet.
-    pub(super) fn new(header: &'b Header<'a>, budget: Budget) -> Self {
+    pub(super) fn new(header: &'b Header, budget: Budget) -> Self {
         let scene = SceneDescription {
             srid: header.srid,
             title: header.title.clone(),
@@ -56,7 +62,7 @@ impl<'a, 'b> SceneBuilder<'a, 'b> {
     }
 
     /// Adds the objects of a document or of a line, which is at `place`.
-    pub(super) fn add(
+    pub(super) fn add<'a>(
         &mut self,
         members: &Members<'a>,
         place: &Location,
@@ -65,16 +71,13 @@ impl<'a, 'b> SceneBuilder<'a, 'b> {
         let list = members.require("vertices", "vertices").map_err(here)?;
         let vertices = Vertices::parse("vertex", list, self.header.transform).map_err(here)?;
         self.budget.vertices(vertices.len()).map_err(here)?;
-        let appearance = Appearance::of(members).map_err(here)?;
         let objects = self.objects(members, place)?;
         let hierarchy = Hierarchy::of(&objects)
             .map_err(|(i, problem)| place.object(&objects[i].id).error(problem))?;
-        let excerpt = Excerpt {
-            header: self.header,
+        let excerpt = Objects {
             objects: &objects,
             hierarchy: &hierarchy,
             vertices: &vertices,
-            appearance: &appearance,
         };
         hierarchy
             .roots()
@@ -82,7 +85,7 @@ impl<'a, 'b> SceneBuilder<'a, 'b> {
     }
 
     /// Takes the member `CityObjects` apart.
-    fn objects(
+    fn objects<'a>(
         &mut self,
         members: &Members<'a>,
         place: &Location,
@@ -105,10 +108,10 @@ impl<'a, 'b> SceneBuilder<'a, 'b> {
     }
 
     /// Adds one root with its descendants as what it is.
-    fn add_root(
+    fn add_root<'a>(
         &mut self,
         root: usize,
-        excerpt: &Excerpt<'a, '_>,
+        excerpt: &Objects<'a, '_>,
         place: &Location,
     ) -> Result<(), FormatError> {
         let object = &excerpt.objects[root];
@@ -147,30 +150,29 @@ impl<'a, 'b> SceneBuilder<'a, 'b> {
         } else {
             let at = |problem| place.object(&name).error(problem);
             let attributes = object.attributes().map_err(at)?;
-            let source = excerpt.write(&family).map_err(at)?;
-            self.budget.source_bytes(source.len()).map_err(at)?;
             self.scene.features.push(Feature {
                 name,
                 class,
                 attributes,
+                parts: Vec::new(),
                 geometries,
-                source,
             });
         }
         Ok(())
     }
 
     /// Reads all geometries of a root and its descendants.
-    fn geometries(
+    fn geometries<'a>(
         &mut self,
         family: &[usize],
-        excerpt: &Excerpt<'a, '_>,
+        excerpt: &Objects<'a, '_>,
         place: &Location,
     ) -> Result<FamilyGeometry, FormatError> {
         let mut all = FamilyGeometry {
             geometries: Vec::new(),
             why_none: "no geometry",
         };
+        let root = &excerpt.objects[family[0]];
         for object in family.iter().map(|i| &excerpt.objects[*i]) {
             for (number, raw) in object.geometries.iter().enumerate() {
                 let read = Members::of("geometry", raw).and_then(|members| {
@@ -193,8 +195,12 @@ impl<'a, 'b> SceneBuilder<'a, 'b> {
                 if !read.surfaces.is_empty() {
                     all.geometries.push(Geometry {
                         level_of_detail: read.level_of_detail,
-                        part: object.id.to_string(),
-                        surfaces: read.surfaces,
+                        part: (object.id != root.id).then(|| object.id.to_string()),
+                        shape: Arc::new(Shape {
+                            surfaces: read.surfaces,
+                            ..Shape::default()
+                        }),
+                        placement: None,
                     });
                 }
             }
@@ -212,7 +218,7 @@ fn finest_surfaces(geometries: Vec<Geometry>) -> Vec<Surface> {
         let finest = part
             .iter()
             .filter(|geometry| geometry.level_of_detail == finest);
-        surfaces.extend(finest.flat_map(|geometry| geometry.surfaces.iter().cloned()));
+        surfaces.extend(finest.flat_map(|geometry| geometry.surfaces().into_owned()));
     }
     surfaces
 }

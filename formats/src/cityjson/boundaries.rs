@@ -122,7 +122,10 @@ pub(super) fn surfaces_from(
             }
         }
         if !rings.is_empty() {
-            surfaces.push(Surface { rings });
+            surfaces.push(Surface {
+                rings,
+                ..Surface::default()
+            });
         }
     }
     surfaces

@@ -5,10 +5,10 @@ use serde_json::value::RawValue;
 use super::boundaries::{GeometryType, index_surfaces, surfaces_at};
 use super::header::Header;
 use super::json::{Members, invalid, parse, string};
-use super::limits::{Budget, MAX_LEVEL_OF_DETAIL};
 use super::templates::Placement;
 use super::vertices::Vertices;
 use crate::error::Problem;
+use crate::limits::{Budget, MAX_LEVEL_OF_DETAIL};
 use crate::scene::Surface;
 
 /// A geometry with its surfaces, which may be none.
@@ -23,7 +23,7 @@ pub(super) struct ReadGeometry {
 /// Reads one geometry, its instance placed.
 pub(super) fn read_geometry(
     members: &Members<'_>,
-    header: &Header<'_>,
+    header: &Header,
     vertices: &Vertices,
     budget: &mut Budget,
     degenerate_rings: &mut usize,

@@ -2,35 +2,27 @@
 
 use serde_json::value::RawValue;
 
-use super::appearance::Appearance;
 use super::json::{Members, invalid, string};
-use super::limits::Budget;
 use super::templates::Templates;
 use super::vertices::Transform;
 use crate::error::Problem;
+use crate::limits::Budget;
 
-/// The members of a document beside its objects, their vertices and their appearance.
+/// The members of a document beside its objects and their vertices.
 #[derive(Debug)]
-pub(super) struct Header<'a> {
-    pub(super) version: &'a RawValue,
+pub(super) struct Header {
     pub(super) transform: Transform,
-    pub(super) transform_text: &'a RawValue,
-    pub(super) extensions: Option<&'a RawValue>,
-    pub(super) reference_system: Option<&'a RawValue>,
-    pub(super) templates: Templates<'a>,
-    /// The appearance that templates refer to.
-    pub(super) appearance: Appearance<'a>,
+    pub(super) templates: Templates,
     pub(super) srid: Option<i32>,
     pub(super) title: Option<String>,
     pub(super) attribution: Option<String>,
 }
 
-impl<'a> Header<'a> {
+impl Header {
     /// Reads the members of a whole document or of the first line of a sequence.
-    pub(super) fn parse(members: &Members<'a>, budget: &mut Budget) -> Result<Self, Problem> {
+    pub(super) fn parse(members: &Members<'_>, budget: &mut Budget) -> Result<Self, Problem> {
         let version = members.require("version", "version")?;
         check_version(version)?;
-        let transform_text = members.require("transform", "transform")?;
         let templates = match members.get("geometry-templates") {
             Some(raw) => Templates::parse(raw, budget)?,
             None => Templates::default(),
@@ -41,13 +33,8 @@ impl<'a> Header<'a> {
         };
         let reference_system = metadata.get("referenceSystem");
         Ok(Self {
-            version,
-            transform: Transform::parse(transform_text)?,
-            transform_text,
-            extensions: members.get("extensions"),
-            reference_system,
+            transform: Transform::parse(members.require("transform", "transform")?)?,
             templates,
-            appearance: Appearance::of(members)?,
             srid: reference_system.map(srid).transpose()?.flatten(),
             title: metadata.get("title").and_then(text),
             attribution: attribution(&metadata),

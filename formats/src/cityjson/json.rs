@@ -8,8 +8,8 @@ use std::fmt;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 
-use super::limits::MAX_NESTING;
 use crate::error::{Problem, quote, shorten};
+use crate::limits::MAX_NESTING;
 
 /// Most members of an object that are compared pairwise for duplicates; above, they are hashed.
 const FEW_MEMBERS: usize = 16;

@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use serde_json::value::RawValue;
 
 use super::json::{Members, array, parse, string, strings};
-use super::limits::{MAX_ATTRIBUTE_BYTES, MAX_NAME_BYTES};
 use crate::error::Problem;
+use crate::limits::{MAX_ATTRIBUTE_BYTES, MAX_NAME_BYTES};
 
 /// A city object; its attributes and geometries are still raw.
 #[derive(Debug)]

@@ -5,8 +5,9 @@ use serde_json::value::RawValue;
 use super::block::SceneBuilder;
 use super::header::Header;
 use super::json::{Members, check_nesting, string};
-use super::limits::{Budget, Limits};
 use crate::error::{FormatError, Location, Problem, quote, shorten};
+use crate::input::{Input, ReadOptions, Sink};
+use crate::limits::{Budget, Limits};
 use crate::scene::SceneDescription;
 
 /// Reads a CityJSON document of version 1.1 or 2.0, or a CityJSONSeq: a header on the first line,
@@ -21,8 +22,19 @@ use crate::scene::SceneDescription;
 /// # Errors
 /// Anything that the format does not allow in what is read, and more than the reader's limits; the
 /// error names the file, the line of a sequence, the object and the geometry.
-pub fn read_city_json(name: &str, bytes: &[u8]) -> Result<SceneDescription, FormatError> {
-    read_within(name, bytes, &Limits::STANDARD)
+pub(crate) fn read(
+    name: &str,
+    input: &mut dyn Input,
+    _options: &ReadOptions<'_>,
+    sink: &mut Sink<'_>,
+) -> Result<(), FormatError> {
+    let mut bytes = Vec::new();
+    input
+        .read_to_end(&mut bytes)
+        .map_err(|error| Location::file(name).error(error.into()))?;
+    let scene = read_within(name, &bytes, &Limits::STANDARD)?;
+    let _ = sink(scene);
+    Ok(())
 }
 
 fn read_within(name: &str, bytes: &[u8], limits: &Limits) -> Result<SceneDescription, FormatError> {

@@ -5,33 +5,30 @@ use serde_json::value::RawValue;
 use super::boundaries::{GeometryType, IndexSurface, index_surfaces, surfaces_from};
 use super::geometry::level_of_detail;
 use super::json::{Members, array, invalid};
-use super::limits::Budget;
 use super::vertices::{Transform, Vertices, check_position, numbers};
 use crate::error::Problem;
+use crate::limits::Budget;
 use crate::scene::Surface;
 
 /// The member `geometry-templates`.
 #[derive(Debug, Default)]
-pub(super) struct Templates<'a> {
-    templates: Vec<Template<'a>>,
+pub(super) struct Templates {
+    templates: Vec<Template>,
     vertices: Vertices,
 }
 
 /// One template.
 #[derive(Debug)]
-pub(super) struct Template<'a> {
+pub(super) struct Template {
     pub(super) level_of_detail: f64,
-    pub(super) members: Members<'a>,
     surfaces: Vec<IndexSurface>,
     /// Vertices and rings: what placing it once costs.
     size: usize,
-    /// Length of its text, which the source of an instance carries.
-    text_bytes: usize,
 }
 
-impl<'a> Templates<'a> {
+impl Templates {
     /// Reads the templates and their vertices; these are metres, no transform applies.
-    pub(super) fn parse(raw: &'a RawValue, budget: &mut Budget) -> Result<Self, Problem> {
+    pub(super) fn parse(raw: &RawValue, budget: &mut Budget) -> Result<Self, Problem> {
         let members = Members::of("geometry-templates", raw)?;
         let list = members.require("vertices-templates", "vertices-templates")?;
         let vertices = Vertices::parse("template vertex", list, Transform::IDENTITY)?;
@@ -48,7 +45,7 @@ impl<'a> Templates<'a> {
     }
 
     /// The template that an instance selects.
-    pub(super) fn get(&self, index: u64) -> Result<&Template<'a>, Problem> {
+    pub(super) fn get(&self, index: u64) -> Result<&Template, Problem> {
         let template = usize::try_from(index)
             .ok()
             .and_then(|i| self.templates.get(i));
@@ -75,7 +72,6 @@ impl<'a> Templates<'a> {
         let template = self.get(index)?;
         budget.surfaces(template.surfaces.len())?;
         budget.instance_vertices(template.size)?;
-        budget.source_bytes(template.text_bytes)?;
         let place = |ring: &Vec<u64>| {
             let mut ring: Vec<_> = ring
                 .iter()
@@ -94,8 +90,8 @@ impl<'a> Templates<'a> {
     }
 }
 
-impl<'a> Template<'a> {
-    fn parse(raw: &'a RawValue, vertex_count: usize) -> Result<Self, Problem> {
+impl Template {
+    fn parse(raw: &RawValue, vertex_count: usize) -> Result<Self, Problem> {
         let members = Members::of("template", raw)?;
         let kind = members.require("type", "geometry type")?;
         let kind = match GeometryType::parse(kind)? {
@@ -114,8 +110,6 @@ impl<'a> Template<'a> {
         Ok(Self {
             level_of_detail: level_of_detail(&members)?,
             size: surfaces.iter().map(size).sum(),
-            text_bytes: raw.get().len(),
-            members,
             surfaces,
         })
     }

@@ -3,8 +3,8 @@
 use serde_json::value::RawValue;
 
 use super::json::{self, Members, invalid};
-use super::limits::MAX_COORDINATE;
 use crate::error::Problem;
+use crate::limits::MAX_COORDINATE;
 
 /// Stored coordinates to metres: `stored * scale + translate`, each axis on its own.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,75 +1,66 @@
-//! How much a document may hold, so that no file can take memory out of proportion to its size.
+//! How much a file may hold, whatever its format, so that no file can take memory out of proportion to its size.
 
 use crate::error::Problem;
 
 /// Most bytes of an object's identifier or class: each geometry carries a copy.
-pub(super) const MAX_NAME_BYTES: usize = 1024;
+pub(crate) const MAX_NAME_BYTES: usize = 1024;
 
 /// Most bytes of one object's attributes: as values in memory they take up to 40 times as much.
-pub(super) const MAX_ATTRIBUTE_BYTES: usize = 1 << 20;
+pub(crate) const MAX_ATTRIBUTE_BYTES: usize = 1 << 20;
 
 /// Largest coordinate in metres, either sign. Projected systems stay below 10^8; beyond this, areas
 /// and volumes would overflow what the rest of the program can trust.
-pub(super) const MAX_COORDINATE: f64 = 1e9;
+pub(crate) const MAX_COORDINATE: f64 = 1e9;
 
 /// Deepest nesting of arrays and objects. The geometry of a solid takes 12 levels; serde_json, and
 /// what reads the sources later, stops at 128.
-pub(super) const MAX_NESTING: u64 = 100;
+pub(crate) const MAX_NESTING: u64 = 100;
 
 /// Highest level of detail. The format defines 0 to 3.3, older files have 4.
-pub(super) const MAX_LEVEL_OF_DETAIL: f64 = 10.0;
+pub(crate) const MAX_LEVEL_OF_DETAIL: f64 = 10.0;
 
 /// The most of everything that is read from one file.
 #[derive(Clone, Debug)]
-pub(super) struct Limits {
+pub(crate) struct Limits {
     /// Bytes of input.
-    pub(super) input_bytes: u64,
+    pub(crate) input_bytes: u64,
     /// City objects.
-    pub(super) objects: u64,
+    pub(crate) objects: u64,
     /// Vertices of all lists together.
-    pub(super) vertices: u64,
+    pub(crate) vertices: u64,
     /// Surfaces given out.
-    pub(super) surfaces: u64,
+    pub(crate) surfaces: u64,
     /// Vertices and rings given out by instances of templates. A template of a megabyte costs 60
     /// bytes to repeat, so this one holds memory below 1 GB whatever the input.
-    pub(super) instance_vertices: u64,
-    /// Bytes of all sources together, beyond [`SOURCE_BYTES_PER_BYTE`] for each byte of input:
-    /// each instance's source carries its template.
-    pub(super) source_bytes: u64,
+    pub(crate) instance_vertices: u64,
 }
 
-/// Sources may be this many times as long as the input before they count. Copying every vertex that
-/// neighbours share and a frame around each object makes 2 to 3 of real files.
-const SOURCE_BYTES_PER_BYTE: u64 = 8;
-
 impl Limits {
-    /// What [`super::read_city_json`] takes: some hundred times a dense square kilometre at four
+    /// What readers take: some hundred times a dense square kilometre at four
     /// levels of detail.
-    pub(super) const STANDARD: Self = Self {
+    pub(crate) const STANDARD: Self = Self {
         input_bytes: 2 << 30,
         objects: 10_000_000,
         vertices: 100_000_000,
         surfaces: 50_000_000,
         instance_vertices: 10_000_000,
-        source_bytes: 256 << 20,
     };
 }
 
 /// What has been used up of the limits.
 #[derive(Debug)]
-pub(super) struct Budget {
+pub(crate) struct Budget {
     limits: Limits,
     input_bytes: u64,
     objects: u64,
     vertices: u64,
     surfaces: u64,
     instance_vertices: u64,
-    source_bytes: u64,
 }
 
 impl Budget {
     /// A fresh budget for an input of this size.
-    pub(super) fn new(limits: &Limits, input_bytes: usize) -> Result<Self, Problem> {
+    pub(crate) fn new(limits: &Limits, input_bytes: usize) -> Result<Self, Problem> {
         let mut budget = Self {
             limits: limits.clone(),
             input_bytes: 0,
@@ -77,7 +68,6 @@ impl Budget {
             vertices: 0,
             surfaces: 0,
             instance_vertices: 0,
-            source_bytes: 0,
         };
         spend(
             "bytes of input",
@@ -88,19 +78,19 @@ impl Budget {
         Ok(budget)
     }
 
-    pub(super) fn objects(&mut self, count: usize) -> Result<(), Problem> {
+    pub(crate) fn objects(&mut self, count: usize) -> Result<(), Problem> {
         spend("objects", &mut self.objects, count, self.limits.objects)
     }
 
-    pub(super) fn vertices(&mut self, count: usize) -> Result<(), Problem> {
+    pub(crate) fn vertices(&mut self, count: usize) -> Result<(), Problem> {
         spend("vertices", &mut self.vertices, count, self.limits.vertices)
     }
 
-    pub(super) fn surfaces(&mut self, count: usize) -> Result<(), Problem> {
+    pub(crate) fn surfaces(&mut self, count: usize) -> Result<(), Problem> {
         spend("surfaces", &mut self.surfaces, count, self.limits.surfaces)
     }
 
-    pub(super) fn instance_vertices(&mut self, count: usize) -> Result<(), Problem> {
+    pub(crate) fn instance_vertices(&mut self, count: usize) -> Result<(), Problem> {
         let limit = self.limits.instance_vertices;
         spend(
             "vertices and rings of template instances",
@@ -108,11 +98,6 @@ impl Budget {
             count,
             limit,
         )
-    }
-
-    pub(super) fn source_bytes(&mut self, count: usize) -> Result<(), Problem> {
-        let limit = self.limits.source_bytes + SOURCE_BYTES_PER_BYTE * self.input_bytes;
-        spend("bytes of sources", &mut self.source_bytes, count, limit)
     }
 }
 

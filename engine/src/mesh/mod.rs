@@ -3,6 +3,7 @@
 
 mod certificate;
 mod clip;
+mod foot_cap;
 mod free_grid;
 mod growth;
 mod inner_envelope;

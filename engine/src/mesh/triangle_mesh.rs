@@ -85,36 +85,33 @@ impl TriangleMesh {
     /// Whether each directed edge is balanced by its opposite.
     #[must_use]
     pub fn closedness(&self) -> Closedness {
+        match self.unpaired_edges().len() {
+            0 => Closedness::Closed,
+            unpaired => Closedness::Open { unpaired },
+        }
+    }
+
+    /// The directed edges, by their ends, that lack an opposite; each as often as it does.
+    pub(super) fn unpaired_edges(&self) -> Vec<[u32; 2]> {
         let edges = self
             .triangles
             .iter()
             .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
         // An edge is its two ends in order, with +1 along and -1 against.
-        let mut balance: Vec<(u32, u32, i64)> = edges
+        let mut balance: Vec<([u32; 2], i64)> = edges
             .map(|[from, to]| {
-                (
-                    from.min(to),
-                    from.max(to),
-                    i64::from(to > from) - i64::from(to < from),
-                )
+                let turn = i64::from(to > from) - i64::from(to < from);
+                ([from.min(to), from.max(to)], turn)
             })
             .collect();
-        balance.sort_unstable_by_key(|&(low, high, _)| (low, high));
-        let same = balance.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
-        let unpaired: u64 = same
-            .map(|edge| {
-                edge.iter()
-                    .map(|&(_, _, turn)| turn)
-                    .sum::<i64>()
-                    .unsigned_abs()
-            })
-            .sum();
-        match unpaired {
-            0 => Closedness::Closed,
-            unpaired => Closedness::Open {
-                unpaired: unpaired as usize,
-            },
-        }
+        balance.sort_unstable();
+        let unpaired = balance.chunk_by(|a, b| a.0 == b.0).flat_map(|edge| {
+            let [low, high] = edge[0].0;
+            let turns: i64 = edge.iter().map(|(_, turn)| turn).sum();
+            let directed = if turns > 0 { [low, high] } else { [high, low] };
+            std::iter::repeat_n(directed, turns.unsigned_abs() as usize)
+        });
+        unpaired.collect()
     }
 
     /// The volume inside in cubic metres, negative when the mesh is inside out; meaningful for a

@@ -17,8 +17,8 @@ pub use box3d::Box3d;
 pub use city::{BoxCity, scattered_city};
 pub use field_of_view::{ViewCone, ViewSector, in_range};
 pub use mesh::{
-    Closedness, GROUND_TOLERANCE, InnerEnvelope, MeshDefect, PolygonDefect, TriangleMesh,
-    inner_envelope, triangulate,
+    Closedness, Extrusion, GROUND_TOLERANCE, InnerEnvelope, MeshDefect, PolygonDefect,
+    TriangleMesh, deviation, extruded, inner_envelope, triangulate,
 };
 pub use shadow_region::ShadowRegion;
 pub use solid_column::SolidColumn;

@@ -3,6 +3,8 @@
 
 mod certificate;
 mod clip;
+mod deviation;
+mod extrusion;
 mod foot_cap;
 mod free_grid;
 mod growth;
@@ -13,6 +15,8 @@ mod triangle_mesh;
 mod triangulate;
 mod winding_number;
 
+pub use deviation::deviation;
+pub use extrusion::{Extrusion, extruded};
 pub use inner_envelope::{GROUND_TOLERANCE, InnerEnvelope, inner_envelope};
 pub use mesh_defect::MeshDefect;
 pub use triangle_mesh::{Closedness, TriangleMesh};

@@ -42,24 +42,25 @@ pub enum PolygonDefect {
 /// # Errors
 /// [`PolygonDefect`] when the rings bound no polygon: they cross, overlap, fold, or hold a NaN.
 pub fn triangulate(rings: &[Vec<DVec3>]) -> Result<Vec<[usize; 3]>, PolygonDefect> {
-    if !rings.iter().flatten().all(|p| p.is_finite()) {
-        return Err(PolygonDefect::NotFinite);
-    }
-    let polygon = Polygon::new(rings);
-    let triangles = polygon.triangles().and_then(|triangles| {
-        if triangles.is_empty() {
-            Err(PolygonDefect::Overlapping)
-        } else {
-            Ok(triangles)
-        }
-    });
-    triangles.or_else(|defect| {
-        if is_thin(rings) {
-            Ok(polygon.fan())
+    triangulate_strictly(rings).or_else(|defect| {
+        if defect != PolygonDefect::NotFinite && is_thin(rings) {
+            Ok(fan(rings))
         } else {
             Err(defect)
         }
     })
+}
+
+/// As [`triangulate`], but thin polygons get no fan: their rings must bound an area, too.
+pub(super) fn triangulate_strictly(rings: &[Vec<DVec3>]) -> Result<Vec<[usize; 3]>, PolygonDefect> {
+    if !rings.iter().flatten().all(|p| p.is_finite()) {
+        return Err(PolygonDefect::NotFinite);
+    }
+    let triangles = Polygon::new(rings).triangles()?;
+    if triangles.is_empty() {
+        return Err(PolygonDefect::Overlapping);
+    }
+    Ok(triangles)
 }
 
 /// Triangles that cover at least the rings' insides, with each ring edge on one triangle: all that

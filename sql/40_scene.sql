@@ -8,16 +8,38 @@ SET search_path = pg_catalog, pg_temp AS $$
     VALUES
         ('scene_info', 'format_version', 'integer'),
         ('scene_info', 'srid', 'integer'),
+        ('scene_info', 'attribution', 'text'),
         ('feature', 'id', 'bigint'),
         ('feature', 'class', 'text'),
         ('feature', 'envelope', 'occlusion.box3d'),
+        ('feature', 'name', 'text'),
+        ('feature', 'slot', 'integer'),
+        ('feature', 'outline', 'polygon'),
+        ('feature', 'attributes', 'jsonb'),
         ('mesh', 'feature', 'bigint'),
+        ('mesh', 'level_of_detail', 'double precision'),
         ('mesh', 'vertices', 'double precision[]'),
         ('mesh', 'triangles', 'integer[]'),
+        ('mesh', 'defect', 'text'),
+        ('mesh', 'repair', 'text'),
+        ('shape', 'digest', 'bytea'),
+        ('shape', 'content', 'bytea'),
         ('model', 'feature', 'bigint'),
+        ('model', 'level_of_detail', 'double precision'),
+        ('model', 'format', 'text'),
+        ('model', 'content', 'bytea'),
+        ('model', 'shape', 'bytea'),
+        ('model', 'placement', 'double precision[]'),
+        ('model', 'geometric_error', 'double precision'),
         ('inner_envelope', 'feature', 'bigint'),
         ('inner_envelope', 'box', 'occlusion.box3d'),
         ('inner_envelope', 'grounded', 'boolean'),
+        ('solid_column', 'feature', 'bigint'),
+        ('solid_column', 'footprint', 'polygon[]'),
+        ('solid_column', 'bottom', 'double precision'),
+        ('solid_column', 'top', 'double precision'),
+        ('solid_column', 'grounded', 'boolean'),
+        ('solid_column', 'envelope', 'occlusion.box3d'),
         ('street', 'area', 'polygon[]'),
         ('street', 'eye_low', 'double precision'),
         ('street', 'eye_high', 'double precision'),
@@ -25,6 +47,7 @@ SET search_path = pg_catalog, pg_temp AS $$
         ('occlusion_volume', 'occluder', 'bigint'),
         ('occlusion_volume', 'occludee', 'bigint'),
         ('occlusion_volume', 'box', 'occlusion.box3d'),
+        ('import_remark', 'remark', 'text'),
         ('job', 'task', 'text')
 $$;
 COMMENT ON FUNCTION occlusion.scene_columns() IS 'the tables of a scene and the columns that functions read';
@@ -108,13 +131,15 @@ BEGIN
             singleton boolean PRIMARY KEY DEFAULT true CHECK (singleton),
             format_version integer NOT NULL,
             srid integer NOT NULL,
-            ground float8
+            ground float8,
+            attribution text
         );
         COMMENT ON TABLE %1$s.scene_info IS 'one row; marks this schema as a scene';
         COMMENT ON COLUMN %1$s.scene_info.singleton IS 'keeps it one row';
         COMMENT ON COLUMN %1$s.scene_info.format_version IS 'version of the layout of these tables';
         COMMENT ON COLUMN %1$s.scene_info.srid IS 'EPSG code of the projected frame, 0 if unknown';
         COMMENT ON COLUMN %1$s.scene_info.ground IS 'height of level ground in metres; NULL: from the feet of near features';
+        COMMENT ON COLUMN %1$s.scene_info.attribution IS 'whom to credit for the data';
         INSERT INTO %1$s.scene_info (format_version, srid) VALUES (1, %2$s);
 
         CREATE TABLE %1$s.feature (
@@ -123,6 +148,7 @@ BEGIN
             class text NOT NULL DEFAULT 'Generic',
             envelope occlusion.box3d NOT NULL,
             slot integer,
+            outline polygon,
             attributes jsonb
         );
         CREATE INDEX feature_envelope ON %1$s.feature USING gist (envelope);
@@ -132,29 +158,45 @@ BEGIN
         COMMENT ON COLUMN %1$s.feature.class IS 'kind of object, as the source names it';
         COMMENT ON COLUMN %1$s.feature.envelope IS 'outer envelope: smallest box that holds all of the feature, every level of detail';
         COMMENT ON COLUMN %1$s.feature.slot IS 'position along a space-filling order; internal';
+        COMMENT ON COLUMN %1$s.feature.outline IS 'outer prism: convex hull of the footprint, over the heights of the envelope';
         COMMENT ON COLUMN %1$s.feature.attributes IS 'attributes of the source';
+
+        CREATE TABLE %1$s.shape (
+            digest bytea PRIMARY KEY,
+            content bytea NOT NULL
+        );
+        COMMENT ON TABLE %1$s.shape IS 'shapes that several models are instances of, each once';
+        COMMENT ON COLUMN %1$s.shape.digest IS 'digest of the content';
+        COMMENT ON COLUMN %1$s.shape.content IS 'the shape in its own frame, packed';
 
         CREATE TABLE %1$s.model (
             feature bigint NOT NULL REFERENCES %1$s.feature ON DELETE CASCADE,
-            level_of_detail text NOT NULL,
+            level_of_detail float8 NOT NULL,
             format text NOT NULL,
-            content bytea NOT NULL,
+            content bytea,
+            shape bytea REFERENCES %1$s.shape,
+            placement float8[] CHECK (cardinality(placement) = 12),
             geometric_error float8,
-            PRIMARY KEY (feature, level_of_detail, format)
+            PRIMARY KEY (feature, level_of_detail, format),
+            CHECK ((content IS NULL) <> (shape IS NULL)),
+            CHECK ((shape IS NULL) = (placement IS NULL))
         );
-        COMMENT ON TABLE %1$s.model IS 'models of features, as delivered';
+        COMMENT ON TABLE %1$s.model IS 'models of features, by level of detail';
         COMMENT ON COLUMN %1$s.model.feature IS 'feature that it shows';
-        COMMENT ON COLUMN %1$s.model.level_of_detail IS 'level of detail, or "all" for a source that holds several';
-        COMMENT ON COLUMN %1$s.model.format IS 'file format, such as cityjson';
-        COMMENT ON COLUMN %1$s.model.content IS 'the model itself';
-        COMMENT ON COLUMN %1$s.model.geometric_error IS 'greatest distance to the true surface in metres, if known';
+        COMMENT ON COLUMN %1$s.model.level_of_detail IS 'level of detail; the greatest is the best';
+        COMMENT ON COLUMN %1$s.model.format IS 'packed as imports write it, or a file format: glb, vrml97, cityjson, obj, ply';
+        COMMENT ON COLUMN %1$s.model.content IS 'the model itself; NULL for an instance of a shape';
+        COMMENT ON COLUMN %1$s.model.shape IS 'digest of the shape that this model is an instance of';
+        COMMENT ON COLUMN %1$s.model.placement IS 'where the instance goes: three rows of a, b, c, d with x'' = a x + b y + c z + d';
+        COMMENT ON COLUMN %1$s.model.geometric_error IS 'greatest distance to the best level of detail in metres, if known';
 
         CREATE TABLE %1$s.mesh (
             feature bigint PRIMARY KEY REFERENCES %1$s.feature ON DELETE CASCADE,
-            level_of_detail text,
+            level_of_detail float8,
             vertices float8[] NOT NULL,
             triangles integer[] NOT NULL,
-            defect text
+            defect text,
+            repair text
         );
         COMMENT ON TABLE %1$s.mesh IS 'truth: the triangles of the best level of detail of each feature';
         COMMENT ON COLUMN %1$s.mesh.feature IS 'feature whose surface it is';
@@ -162,6 +204,7 @@ BEGIN
         COMMENT ON COLUMN %1$s.mesh.vertices IS 'x, y, z of vertex 0, of vertex 1, and so on, metres';
         COMMENT ON COLUMN %1$s.mesh.triangles IS 'three vertices a triangle, counted from 0, anticlockwise seen from outside';
         COMMENT ON COLUMN %1$s.mesh.defect IS 'why the mesh encloses no solid and so hides nothing; NULL if it does';
+        COMMENT ON COLUMN %1$s.mesh.repair IS 'what was added to the delivered surface to close it; NULL if nothing was';
 
         CREATE TABLE %1$s.inner_envelope (
             feature bigint PRIMARY KEY REFERENCES %1$s.feature ON DELETE CASCADE,
@@ -173,6 +216,27 @@ BEGIN
         COMMENT ON COLUMN %1$s.inner_envelope.feature IS 'feature that it is part of';
         COMMENT ON COLUMN %1$s.inner_envelope.box IS 'box inside the solid, metres';
         COMMENT ON COLUMN %1$s.inner_envelope.grounded IS 'whether the ground under the box is solid down to any depth';
+
+        CREATE TABLE %1$s.solid_column (
+            feature bigint NOT NULL REFERENCES %1$s.feature ON DELETE CASCADE,
+            footprint polygon[] NOT NULL CHECK (cardinality(footprint) > 0),
+            bottom float8 NOT NULL,
+            top float8 NOT NULL CHECK (bottom < top),
+            grounded boolean NOT NULL DEFAULT false,
+            envelope occlusion.box3d NOT NULL GENERATED ALWAYS AS (occlusion.box3d(
+                occlusion.point3d(((box(footprint[1]))[1])[0], ((box(footprint[1]))[1])[1], bottom),
+                occlusion.point3d(((box(footprint[1]))[0])[0], ((box(footprint[1]))[0])[1], top)
+            )) STORED
+        );
+        CREATE INDEX solid_column_feature ON %1$s.solid_column (feature);
+        CREATE INDEX solid_column_envelope ON %1$s.solid_column USING gist (envelope);
+        COMMENT ON TABLE %1$s.solid_column IS 'what hides: prisms wholly inside each solid feature';
+        COMMENT ON COLUMN %1$s.solid_column.feature IS 'feature that it is part of';
+        COMMENT ON COLUMN %1$s.solid_column.footprint IS 'outer ring anticlockwise, then holes, metres';
+        COMMENT ON COLUMN %1$s.solid_column.bottom IS 'lowest height, metres';
+        COMMENT ON COLUMN %1$s.solid_column.top IS 'greatest height, metres';
+        COMMENT ON COLUMN %1$s.solid_column.grounded IS 'whether the ground under the column is solid down to any depth';
+        COMMENT ON COLUMN %1$s.solid_column.envelope IS 'box around it; derived';
 
         CREATE TABLE %1$s.street (
             id bigint GENERATED BY DEFAULT AS IDENTITY PRIMARY KEY,
@@ -208,6 +272,20 @@ BEGIN
         COMMENT ON COLUMN %1$s.occlusion_volume.occludee IS 'feature that is hidden';
         COMMENT ON COLUMN %1$s.occlusion_volume.box IS 'eyes from which it is hidden, metres';
 
+        CREATE TABLE %1$s.import_remark (
+            source text NOT NULL,
+            name text NOT NULL,
+            class text NOT NULL,
+            skipped boolean NOT NULL,
+            remark text NOT NULL
+        );
+        COMMENT ON TABLE %1$s.import_remark IS 'objects of imported files that were left out or changed';
+        COMMENT ON COLUMN %1$s.import_remark.source IS 'file or table that it came from';
+        COMMENT ON COLUMN %1$s.import_remark.name IS 'identifier in the source';
+        COMMENT ON COLUMN %1$s.import_remark.class IS 'kind of object, as the source names it';
+        COMMENT ON COLUMN %1$s.import_remark.skipped IS 'whether it is not in the scene';
+        COMMENT ON COLUMN %1$s.import_remark.remark IS 'why it was left out, or what is different';
+
         CREATE TABLE %1$s.job (
             task text PRIMARY KEY,
             backend integer NOT NULL,
@@ -236,10 +314,16 @@ BEGIN
             FOR EACH ROW EXECUTE FUNCTION occlusion.forget_occluder_volumes();
         CREATE TRIGGER forget_all_volumes AFTER TRUNCATE ON %1$s.inner_envelope
             FOR EACH STATEMENT EXECUTE FUNCTION occlusion.forget_all_volumes();
+        CREATE TRIGGER forget_volumes AFTER UPDATE OR DELETE ON %1$s.solid_column
+            FOR EACH ROW EXECUTE FUNCTION occlusion.forget_occluder_volumes();
+        CREATE TRIGGER forget_all_volumes AFTER TRUNCATE ON %1$s.solid_column
+            FOR EACH STATEMENT EXECUTE FUNCTION occlusion.forget_all_volumes();
         ALTER TABLE %1$s.feature ENABLE ALWAYS TRIGGER forget_volumes;
         ALTER TABLE %1$s.feature ENABLE ALWAYS TRIGGER forget_all_volumes;
         ALTER TABLE %1$s.inner_envelope ENABLE ALWAYS TRIGGER forget_volumes;
         ALTER TABLE %1$s.inner_envelope ENABLE ALWAYS TRIGGER forget_all_volumes;
+        ALTER TABLE %1$s.solid_column ENABLE ALWAYS TRIGGER forget_volumes;
+        ALTER TABLE %1$s.solid_column ENABLE ALWAYS TRIGGER forget_all_volumes;
     $ddl$, s, srid);
 END
 $$;
@@ -294,7 +378,7 @@ BEGIN
     RETURN NULL;
 END
 $$;
-COMMENT ON FUNCTION occlusion.forget_occluder_volumes() IS 'trigger: drops the volumes cast by a box that changed';
+COMMENT ON FUNCTION occlusion.forget_occluder_volumes() IS 'trigger: drops the volumes cast by a solid that changed';
 
 CREATE FUNCTION occlusion.forget_all_volumes() RETURNS trigger
 LANGUAGE plpgsql SET search_path = pg_catalog, pg_temp AS $$

@@ -1,5 +1,18 @@
 -- Visibility queries.
 
+-- Whether a point lies in a footprint, within a margin of it included: that of a hole, too.
+CREATE FUNCTION occlusion.covers(footprint polygon[], x float8, y float8, margin float8) RETURNS boolean
+LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
+BEGIN ATOMIC
+    SELECT footprint[1] OPERATOR(pg_catalog.<->) pg_catalog.point(x, y) <= margin
+       AND NOT EXISTS (
+           SELECT FROM pg_catalog.unnest(footprint[2:]) AS hole
+           WHERE hole OPERATOR(pg_catalog.@>) pg_catalog.point(x, y)
+             AND pg_catalog.path(hole) OPERATOR(pg_catalog.<->) pg_catalog.point(x, y) > margin);
+END;
+COMMENT ON FUNCTION occlusion.covers(polygon[], float8, float8, float8) IS
+    'whether a point lies in a footprint (outer ring, then holes) or within a margin of it, metres';
+
 -- The statement behind visible_features. Parameters: $1 the eye; $2 the field of view, or the
 -- range when all round. Margins: an eye within a millimetre of a solid counts as inside it, and the
 -- box that preselects all round is a millimetre larger, so that its rounding loses nothing in range.
@@ -19,6 +32,11 @@ SET search_path = pg_catalog, pg_temp AS $$
                 SELECT FROM %1$I.inner_envelope AS i
                 WHERE i.box OPERATOR(occlusion.&&)
                           occlusion.expand(occlusion.box3d($1, $1), 0.001)
+            ) AND NOT EXISTS (
+                SELECT FROM %1$I.solid_column AS c
+                WHERE c.envelope OPERATOR(occlusion.&&)
+                          occlusion.expand(occlusion.box3d($1, $1), 0.001)
+                  AND occlusion.covers(c.footprint, occlusion.x($1), occlusion.y($1), 0.001)
             ) AS in_view_region
         )
         SELECT f.id, f.class, f.envelope, f.envelope OPERATOR(occlusion.<->) $1

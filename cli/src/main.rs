@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 mod database;
+mod export;
 mod failure;
 mod field_of_view;
 mod generate;
@@ -28,7 +29,8 @@ const EXAMPLES: &str = "Examples:
   occlusion generate delft --range 500
   occlusion query delft --observer 85200,446800,1.7 --heading 45 --angle 90
   occlusion verify delft --observers 100
-  occlusion render delft --observer 85200,446800,1.7 -o picture.png";
+  occlusion render delft --observer 85200,446800,1.7 -o picture.png
+  occlusion export delft --observer 85200,446800,1.7 -o visible.glb";
 
 /// Which features of a 3D city are visible from here, by index, with no false occlusion
 #[derive(Parser, Debug)]
@@ -40,6 +42,7 @@ struct Arguments {
 
 #[derive(Subcommand, Debug)]
 enum Command {
+    Export(export::Export),
     Import(import::Import),
     Generate(generate::Generate),
     Query(query::Query),
@@ -60,6 +63,7 @@ fn main() -> ExitCode {
 
 fn run(command: Command) -> Result<ExitCode, Failure> {
     match command {
+        Command::Export(export) => export.run()?,
         Command::Import(import) => import.run()?,
         Command::Generate(generate) => generate.run()?,
         Command::Query(query) => query.run()?,

@@ -20,6 +20,14 @@ pub fn bar(total: usize, task: &'static str) -> ProgressBar {
     bar
 }
 
+/// A progress bar over the bytes of files.
+pub fn bytes(total: u64) -> ProgressBar {
+    let style = "{msg:24} {wide_bar} {bytes}/{total_bytes} {bytes_per_sec} {eta} left";
+    let bar = ProgressBar::new(total).with_message("importing");
+    bar.set_style(ProgressStyle::with_template(style).expect("the template is well-formed"));
+    bar
+}
+
 /// A sign of life for work of unknown length, on standard error.
 pub fn spinner(task: &'static str) -> ProgressBar {
     let spinner = ProgressBar::new_spinner().with_message(task);

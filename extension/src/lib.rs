@@ -4,6 +4,7 @@
 
 mod error;
 mod index;
+mod models;
 mod scene;
 mod settings;
 mod types;

@@ -1,36 +1,44 @@
 //! `occlusion import`: files into a scene, in one transaction.
 
-mod model;
+mod file;
+mod frame;
+mod ground;
+mod importer;
+mod level;
+mod memory;
 mod morton;
-mod reading;
+mod names;
 mod report;
+mod rows;
 mod solid;
-mod store;
 mod streets;
+mod tally;
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
-use indicatif::ParallelProgressIterator;
-use rayon::prelude::*;
+use engine::ColumnOptions;
+use formats::ReadOptions;
 
 use crate::database::Database;
 use crate::failure::{EXIT_STATUS, Failure};
 use crate::terminal;
-use model::Model;
-use report::Report;
-use solid::Solid;
+use importer::Importer;
+use memory::Memory;
 
 const EXAMPLES: &str = "Examples:
   occlusion import delft.city.jsonl --scene delft
-  occlusion import north.json south.json --scene town --srid 28992 --replace";
+  occlusion import helsinki.osm.pbf --scene helsinki
+  occlusion import north.json south.glb --scene town --srid 28992 --replace";
 
 /// Reads city models into a scene
 ///
-/// The format of each file shows in its content: CityJSON 1.1 and 2.0, CityJSONSeq. Buildings with
-/// their parts become features, roads become streets. A scene without streets gets its view region
-/// from the open space between its features. All files go in together, or nothing does.
+/// The format of each file shows in its content: CityJSON 1.1 and 2.0, CityJSONSeq, OpenStreetMap
+/// PBF, VRML97, glTF and GLB, OBJ, PLY, GeoJSON. Buildings with their parts become features, roads
+/// become streets. A scene without streets gets its view region from the open space between its
+/// features. All files go in together, or nothing does.
 #[derive(Args, Debug)]
 #[command(after_help = format!("{EXAMPLES}\n\n{EXIT_STATUS}"))]
 pub struct Import {
@@ -40,12 +48,22 @@ pub struct Import {
     /// Scene to fill; made if it does not exist
     #[arg(long, value_name = "NAME")]
     scene: String,
-    /// EPSG code of the coordinates, instead of what the files say
+    /// EPSG code of the coordinates, instead of what the files say; geographic ones are projected
+    /// into it
     #[arg(long, value_name = "N")]
     srid: Option<i32>,
     /// Drop the scene first, with all that is in it
     #[arg(long)]
     replace: bool,
+    /// Solid columns of one feature at the most: fewer take less room, more hide more
+    #[arg(long, value_name = "N", default_value_t = ColumnOptions::default().most)]
+    most_columns: usize,
+    /// Share of a feature's volume that is enough inside its columns
+    #[arg(long, value_name = "SHARE", default_value_t = ColumnOptions::default().share)]
+    column_share: f64,
+    /// Memory to read files with, such as 500MB or 2GB, where a format can be read in pieces
+    #[arg(long, value_name = "SIZE", default_value = "1GB")]
+    memory: Memory,
     #[command(flatten)]
     database: Database,
 }
@@ -54,47 +72,61 @@ impl Import {
     /// Runs the command.
     pub fn run(&self) -> Result<(), Failure> {
         let began = Instant::now();
-        let model = reading::read(&self.files, self.srid)?;
+        let mut files = file::open_all(&self.files)?;
         let mut client = self.database.connect()?;
         let mut transaction = client.transaction()?;
-        let neighbours = store::prepare(&mut transaction, &self.scene, &model, self.replace)?;
-        let solids = solids(&model, &neighbours);
-        let streets = streets::of_roads(&model, &solids);
-        let writing = terminal::spinner("writing");
-        let ids = store::features(&mut transaction, &self.scene, &model, &solids)?;
-        store::shapes(&mut transaction, &self.scene, &model, &solids, &ids)?;
-        store::streets(&mut transaction, &self.scene, &streets)?;
-        writing.set_message("view region");
-        let open_space = store::view_region(&mut transaction, &self.scene)?;
-        store::analyze(&mut transaction, &self.scene)?;
-        transaction.commit()?;
-        writing.finish_and_clear();
-        let report = Report {
-            scene: &self.scene,
-            model: &model,
-            solids: &solids,
-            streets: streets.len(),
-            open_space,
-            seconds: began.elapsed().as_secs_f64(),
-        };
+        if self.replace {
+            drop_scene(&mut transaction, &self.scene)?;
+        }
+        let bar = terminal::bytes(files.iter().map(|file| file.bytes).sum());
+        let mut importer = Importer::begin(transaction, &self.scene, self.srid, self.columns()?)?;
+        for file in &mut files {
+            let path = file.path.clone();
+            let mut failure = None;
+            let options = ReadOptions {
+                srid: importer.srid(),
+                batch_bytes: self.memory.batch_bytes(),
+                companion: &|name| file::companion(&path, name),
+            };
+            let format = file.read(&bar, &options, &mut |batch| {
+                match importer.add(&path, batch) {
+                    Ok(()) => ControlFlow::Continue(()),
+                    Err(error) => {
+                        failure = Some(error);
+                        ControlFlow::Break(())
+                    }
+                }
+            });
+            failure.map_or(Ok(()), Err)?;
+            importer.end_file(&path, format?)?;
+        }
+        bar.finish_and_clear();
+        let mut report = importer.finish()?;
+        report.seconds = began.elapsed().as_secs_f64();
         anstream::println!("{report}");
         Ok(())
     }
+
+    fn columns(&self) -> Result<ColumnOptions, Failure> {
+        if !(0.0..=1.0).contains(&self.column_share) {
+            return Err(Failure::Input(format!(
+                "column share {} is not between 0 and 1",
+                self.column_share
+            )));
+        }
+        Ok(ColumnOptions {
+            share: self.column_share,
+            most: self.most_columns,
+            ..ColumnOptions::default()
+        })
+    }
 }
 
-/// What each feature is made of, computed on all cores.
-fn solids(model: &Model, neighbours: &[engine::Box3d]) -> Vec<Solid> {
-    let bar = terminal::bar(model.features.len(), "inner envelopes");
-    let features = model.features.par_iter().progress_with(bar);
-    let mut solids: Vec<Solid> = features.map(Solid::of).collect();
-    let envelopes: Vec<engine::Box3d> = solids
-        .iter()
-        .map(|solid| solid.envelope)
-        .chain(neighbours.iter().copied())
-        .collect();
-    let ground = engine::LocalGround::new(&envelopes);
-    for (solid, feature) in solids.iter_mut().zip(&model.features) {
-        solid.keep_ground(&feature.class, &ground);
+/// Drops a scene, if there is one.
+fn drop_scene(transaction: &mut postgres::Transaction<'_>, scene: &str) -> Result<(), Failure> {
+    let exists = "SELECT FROM pg_catalog.pg_namespace WHERE nspname = $1";
+    if transaction.query_opt(exists, &[&scene])?.is_some() {
+        transaction.execute("SELECT occlusion.drop_scene($1)", &[&scene])?;
     }
-    solids
+    Ok(())
 }

@@ -3,23 +3,19 @@
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
 
-use engine::{Box3d, MeshDefect};
+use engine::Box3d;
 
-use super::model::Model;
-use super::solid::Solid;
+use super::tally::{Group, Tally};
 use crate::terminal::{FAINT, GOOD, grouped};
-
-/// Most names given as examples of a reason.
-const NAMES: usize = 5;
 
 /// What came of an import.
 pub struct Report<'a> {
     /// Name of the scene.
     pub scene: &'a str,
-    /// What was read.
-    pub model: &'a Model,
-    /// What the features are made of.
-    pub solids: &'a [Solid],
+    /// EPSG code of its coordinates, if known.
+    pub srid: Option<i32>,
+    /// What was counted.
+    pub tally: Tally,
     /// Streets made from roads.
     pub streets: usize,
     /// Streets made from open space, if they were.
@@ -30,40 +26,42 @@ pub struct Report<'a> {
 
 impl Display for Report<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let count = grouped(self.model.features.len());
+        let tally = &self.tally;
+        let features: usize = tally.classes.values().sum();
         writeln!(
             f,
-            "{GOOD}imported{GOOD:#} {count} features into {} in {:.1} s",
-            self.scene, self.seconds
+            "{GOOD}imported{GOOD:#} {} features into {} in {:.1} s, {} a second",
+            grouped(features),
+            self.scene,
+            self.seconds,
+            grouped((features as f64 / self.seconds.max(1e-3)) as usize)
         )?;
-        self.write_classes(f)?;
+        for file in &tally.files {
+            line(f, "from", file)?;
+        }
+        for (class, count) in &tally.classes {
+            line(f, class, &grouped(*count))?;
+        }
         self.write_solids(f)?;
-        self.write_left_out(f)?;
+        write_groups(f, "hide nothing", &tally.hollow)?;
+        write_groups(f, "skipped", &tally.skipped)?;
+        write_groups(f, "changed", &tally.changed)?;
+        if tally.degenerate_rings > 0 {
+            let text = format!("{} rings without area", grouped(tally.degenerate_rings));
+            line(f, "dropped", &text)?;
+        }
         match self.open_space {
-            Some(pieces) => line(
-                f,
-                "streets",
-                &format!("none: open space in {pieces} pieces"),
-            )?,
-            None => line(
-                f,
-                "streets",
-                &format!("{} pieces of roads", grouped(self.streets)),
-            )?,
+            Some(pieces) => line(f, "streets", &format!("none: open space in {pieces} pieces"))?,
+            None => line(f, "streets", &format!("{} pieces of roads", grouped(self.streets)))?,
         }
-        if let Some(extent) = self
-            .solids
-            .iter()
-            .map(|solid| solid.envelope)
-            .reduce(|a, b| a.union(&b))
-        {
-            line(f, "extent", &extent_text(&extent))?;
+        if let Some(extent) = &tally.extent {
+            line(f, "extent", &extent_text(extent))?;
         }
-        match self.model.srid {
-            0 => line(f, "srid", "unknown")?,
-            srid => line(f, "srid", &srid.to_string())?,
+        match self.srid {
+            None | Some(0) => line(f, "srid", "unknown")?,
+            Some(srid) => line(f, "srid", &srid.to_string())?,
         }
-        for attribution in &self.model.attributions {
+        for attribution in &tally.attributions {
             line(f, "credit", attribution)?;
         }
         Ok(())
@@ -71,53 +69,28 @@ impl Display for Report<'_> {
 }
 
 impl Report<'_> {
-    fn write_classes(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let mut classes: BTreeMap<&str, usize> = BTreeMap::new();
-        for feature in &self.model.features {
-            *classes.entry(&feature.class).or_default() += 1;
-        }
-        classes
-            .iter()
-            .try_for_each(|(class, count)| line(f, class, &grouped(*count)))
-    }
-
     fn write_solids(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let inner = || {
-            self.solids
-                .iter()
-                .filter_map(|solid| solid.inner.as_ref().ok())
-        };
-        let grounded = inner().filter(|inner| inner.grounded).count();
-        let text = format!(
+        let tally = &self.tally;
+        let mut text = format!(
             "{}, {} of them on solid ground",
-            grouped(inner().count()),
-            grouped(grounded)
+            grouped(tally.solid),
+            grouped(tally.grounded)
         );
-        line(f, "solid", &text)?;
-        let named = self.model.features.iter().zip(self.solids);
-        let defects = named.filter_map(|(feature, solid)| {
-            Some((kind(solid.inner.as_ref().err()?), feature.name.as_str()))
-        });
-        write_groups(f, "not solid", defects)
-    }
-
-    fn write_left_out(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let reason = |s: &formats::Skipped| format!("{}: {}", s.class, s.why);
-        let reasons: Vec<String> = self.model.skipped.iter().map(reason).collect();
-        let names = self
-            .model
-            .skipped
-            .iter()
-            .map(|skipped| skipped.name.as_str());
-        write_groups(f, "skipped", reasons.iter().map(String::as_str).zip(names))?;
-        match self.model.degenerate_rings {
-            0 => Ok(()),
-            count => line(
-                f,
-                "dropped",
-                &format!("{} rings without area", grouped(count)),
-            ),
+        if tally.closed > 0 {
+            text += &format!(", {} closed at their foot", grouped(tally.closed));
         }
+        line(f, "solid", &text)?;
+        let mut counts = tally.columns.clone();
+        counts.sort_unstable();
+        let Some(median) = counts.get(counts.len() / 2) else {
+            return Ok(());
+        };
+        let text = format!(
+            "{}, {median} a feature in the median, with {:.1} % of the solid volume",
+            grouped(counts.iter().sum()),
+            100.0 * tally.volume[1] / tally.volume[0]
+        );
+        line(f, "solid columns", &text)
     }
 }
 
@@ -125,50 +98,30 @@ fn line(f: &mut Formatter<'_>, label: &str, text: &str) -> fmt::Result {
     writeln!(f, "  {label:<22} {text}")
 }
 
-/// Names grouped by reason, the most frequent reason first.
-fn write_groups<'a>(
+/// Groups of names, the most frequent reason first.
+fn write_groups(
     f: &mut Formatter<'_>,
     label: &str,
-    named: impl Iterator<Item = (&'a str, &'a str)>,
+    groups: &BTreeMap<String, Group>,
 ) -> fmt::Result {
-    let mut groups: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-    for (reason, name) in named {
-        groups.entry(reason).or_default().push(name);
-    }
-    let mut groups: Vec<_> = groups.into_iter().collect();
-    groups.sort_by_key(|(_, names)| std::cmp::Reverse(names.len()));
-    let total: usize = groups.iter().map(|(_, names)| names.len()).sum();
+    let mut groups: Vec<(&String, &Group)> = groups.iter().collect();
+    groups.sort_by_key(|(_, group)| std::cmp::Reverse(group.count));
+    let total: usize = groups.iter().map(|(_, group)| group.count).sum();
     if total > 0 {
         line(f, label, &grouped(total))?;
     }
-    for (reason, names) in groups {
-        let examples: Vec<String> = names
-            .iter()
-            .take(NAMES)
-            .map(|name| name.escape_debug().to_string())
-            .collect();
-        let more = if names.len() > NAMES { ", …" } else { "" };
+    for (reason, group) in groups {
+        let examples: Vec<String> =
+            group.examples.iter().map(|name| name.escape_debug().to_string()).collect();
+        let more = if group.count > examples.len() { ", …" } else { "" };
         let text = format!(
             "{} {FAINT}{}{more}{FAINT:#}",
-            grouped(names.len()),
+            grouped(group.count),
             examples.join(", ")
         );
         line(f, &format!("  {reason}"), &text)?;
     }
     Ok(())
-}
-
-/// A defect without its count.
-fn kind(defect: &MeshDefect) -> &'static str {
-    match defect {
-        MeshDefect::NoFaces => "no faces",
-        MeshDefect::NotFinite => "not finite",
-        MeshDefect::UntriangulableFaces { .. } => "untriangulable",
-        MeshDefect::Open { .. } => "open",
-        MeshDefect::InsideOut => "inside out",
-        MeshDefect::ZeroVolume => "zero volume",
-        MeshDefect::TooThin => "too thin",
-    }
 }
 
 fn extent_text(extent: &Box3d) -> String {
@@ -185,19 +138,26 @@ mod tests {
 
     #[test]
     fn reasons_are_counted_and_named() {
-        struct Groups(Vec<(&'static str, &'static str)>);
+        struct Groups(BTreeMap<String, Group>);
         impl Display for Groups {
             fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-                write_groups(f, "not solid", self.0.iter().copied())
+                write_groups(f, "hide nothing", &self.0)
             }
         }
-        let open = ["a", "b", "c", "d", "e", "f"].map(|name| ("open", name));
-        let text = Groups([&[("too thin", "x")][..], &open].concat()).to_string();
+        let group = |count: usize, names: &[&str]| Group {
+            count,
+            examples: names.iter().map(|&name| name.to_owned()).collect(),
+        };
+        let groups = [
+            ("too thin".to_owned(), group(1, &["x"])),
+            ("open".to_owned(), group(6, &["a", "b", "c", "d", "e"])),
+        ];
+        let text = Groups(groups.into()).to_string();
         let plain = anstream::adapter::strip_str(&text).to_string();
         assert_eq!(
             plain,
-            "  not solid              7\n    open                 6 a, b, c, d, e, …\n    too thin             1 x\n"
+            "  hide nothing           7\n    open                 6 a, b, c, d, e, …\n    too thin             1 x\n"
         );
-        assert_eq!(Groups(Vec::new()).to_string(), "");
+        assert_eq!(Groups(BTreeMap::new()).to_string(), "");
     }
 }

@@ -1,89 +1,109 @@
 //! [`Solid`], what a feature of a file is made of.
 
-use engine::{Box3d, InnerEnvelope, LocalGround, MeshDefect, TriangleMesh};
-use formats::{Feature, Geometry, Surface};
+use engine::{Box3d, ColumnOptions, InnerEnvelope, MeshDefect, OuterPrism, SolidColumns, TriangleMesh};
+use formats::Feature;
 use glam::DVec3;
+
+use super::level::{Level, best_geometries, mesh};
 
 /// What a feature is made of.
 #[derive(Debug)]
 pub struct Solid {
-    /// Holds every surface of every level of detail.
+    /// Holds every surface of every level of detail, as delivered.
     pub envelope: Box3d,
+    /// The same, tighter in plan.
+    pub prism: Option<OuterPrism>,
     /// The best level of detail that is in the mesh.
     pub level_of_detail: f64,
-    /// Its surface.
+    /// Its surface, closed at the foot where only its bottom was missing.
     pub mesh: TriangleMesh,
+    /// Height at which the mesh was closed, if it was.
+    pub closed_at: Option<f64>,
     /// What hides others, or why there is no such thing.
-    pub inner: Result<InnerEnvelope, MeshDefect>,
+    pub hides: Result<Hides, MeshDefect>,
+    /// Its models, the best level of detail last.
+    pub levels: Vec<Level>,
+}
+
+/// What hides others.
+#[derive(Clone, Debug, Default)]
+pub struct Hides {
+    /// In its simple form.
+    pub inner: Option<InnerEnvelope>,
+    /// In its full form.
+    pub columns: SolidColumns,
 }
 
 impl Solid {
-    /// Triangulates a feature and looks for its inner envelope.
-    pub fn of(feature: &Feature) -> Self {
-        let all = feature
-            .geometries
-            .iter()
-            .flat_map(|geometry| &geometry.surfaces);
-        let points = all.flat_map(|surface| surface.rings.iter().flatten());
-        let envelope = Box3d::around(points.map(|&point| DVec3::from(point)));
-        let best = best_geometries(&feature.geometries);
-        let mesh = mesh(best.iter().flat_map(|geometry| &geometry.surfaces));
-        let levels = best.iter().map(|geometry| geometry.level_of_detail);
+    /// Triangulates a feature and looks for what hides others in it.
+    pub fn of(feature: &Feature, options: &ColumnOptions) -> Self {
+        let best = best_geometries(feature);
+        let delivered = mesh(best.iter().copied());
+        let levels = Level::of(feature, &delivered);
+        let points = points(feature);
+        let envelope = Box3d::around(points.iter().copied());
+        let level = best.iter().map(|geometry| geometry.level_of_detail);
+        let level_of_detail = level.fold(f64::NEG_INFINITY, f64::max);
+        let (mesh, closed_at) = closed(delivered);
         Self {
             // The reader gives no feature without a surface.
             envelope: envelope.unwrap_or(Box3d::new(DVec3::ZERO, DVec3::ZERO)),
-            level_of_detail: levels.fold(f64::NEG_INFINITY, f64::max),
-            inner: engine::inner_envelope(&mesh),
+            prism: OuterPrism::around(points),
+            level_of_detail,
+            hides: Hides::of(&mesh, options),
             mesh,
-        }
-    }
-
-    /// Leaves the inner envelope grounded only where the feature is of a class that stands on the
-    /// ground, and does.
-    pub fn keep_ground(&mut self, class: &str, ground: &LocalGround) {
-        let Some(mesh) = self.mesh.envelope() else {
-            return;
-        };
-        if let Ok(inner) = &mut self.inner {
-            inner.grounded &=
-                class.starts_with("Building") && ground.holds(&self.envelope, mesh.min.z);
+            closed_at,
+            levels,
         }
     }
 }
 
-/// The highest level of detail of each part. Level 0 is a footprint, a stand-in for the surface:
-/// it counts only where a feature has nothing else.
-fn best_geometries(geometries: &[Geometry]) -> Vec<&Geometry> {
-    let only_footprints = geometries
-        .iter()
-        .all(|geometry| geometry.level_of_detail < 1.0);
-    let candidates = || {
-        geometries
-            .iter()
-            .filter(move |geometry| only_footprints || geometry.level_of_detail >= 1.0)
-    };
-    let is_best = |geometry: &&Geometry| {
-        let same_part = candidates().filter(|other| other.part == geometry.part);
-        same_part
-            .into_iter()
-            .all(|other| other.level_of_detail <= geometry.level_of_detail)
-    };
-    candidates().filter(is_best).collect()
+impl Hides {
+    fn of(mesh: &TriangleMesh, options: &ColumnOptions) -> Result<Self, MeshDefect> {
+        let columns = engine::solid_columns(mesh, options)?;
+        let inner = engine::inner_envelope(mesh);
+        match inner {
+            Err(defect) if columns.columns.is_empty() => Err(defect),
+            inner => Ok(Self {
+                inner: inner.ok(),
+                columns,
+            }),
+        }
+    }
 }
 
-/// The triangles of surfaces.
-pub fn mesh<'a>(surfaces: impl Iterator<Item = &'a Surface>) -> TriangleMesh {
-    let ring = |ring: &Vec<[f64; 3]>| ring.iter().map(|&point| DVec3::from(point)).collect();
-    TriangleMesh::from_polygons(
-        surfaces.map(|surface| surface.rings.iter().map(ring).collect::<Vec<Vec<DVec3>>>()),
-    )
+/// A mesh whose bottom is missing, closed there; any other as it is.
+fn closed(mut mesh: TriangleMesh) -> (TriangleMesh, Option<f64>) {
+    let Some(cap) = mesh.foot_cap() else {
+        return (mesh, None);
+    };
+    mesh.triangles.extend(cap);
+    let foot = mesh.envelope().map(|bounds| bounds.min.z);
+    (mesh, foot)
+}
+
+/// Every position of every level of detail, those that a GLB rounds to included.
+fn points(feature: &Feature) -> Vec<DVec3> {
+    let exact = feature.geometries.iter().flat_map(|geometry| {
+        let surfaces = geometry.surfaces();
+        let rings = surfaces.iter().flat_map(|surface| &surface.rings);
+        rings.flatten().copied().collect::<Vec<_>>()
+    });
+    exact
+        .chain(formats::delivered_positions(feature))
+        .map(DVec3::from)
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use formats::{Geometry, Shape, Surface};
+
     use super::*;
 
-    /// The faces of a box from `min` with this size.
+    /// The faces of a box from `min` with this size; the first is the bottom.
     fn block(min: [f64; 3], size: f64) -> Vec<Surface> {
         let corners = Box3d::new(min.into(), DVec3::from(min) + size).corners();
         [
@@ -95,11 +115,8 @@ mod tests {
             [1, 3, 7, 5],
         ]
         .map(|face: [usize; 4]| Surface {
-            rings: vec![
-                face.iter()
-                    .map(|&corner| corners[corner].to_array())
-                    .collect(),
-            ],
+            rings: vec![face.iter().map(|&corner| corners[corner].to_array()).collect()],
+            ..Surface::default()
         })
         .to_vec()
     }
@@ -107,69 +124,77 @@ mod tests {
     fn geometry(level_of_detail: f64, part: &str, surfaces: Vec<Surface>) -> Geometry {
         Geometry {
             level_of_detail,
-            part: part.to_owned(),
-            surfaces,
+            part: Some(part.to_owned()),
+            shape: Arc::new(Shape {
+                surfaces,
+                ..Shape::default()
+            }),
+            placement: None,
         }
     }
 
-    fn feature(geometries: Vec<Geometry>) -> Feature {
-        Feature {
+    fn solid(geometries: Vec<Geometry>) -> Solid {
+        let feature = Feature {
             name: "house".to_owned(),
             class: "Building".to_owned(),
             attributes: serde_json::json!({}),
+            parts: Vec::new(),
             geometries,
-            source: String::new(),
-        }
+        };
+        Solid::of(&feature, &ColumnOptions::default())
     }
 
     /// A footprint, and two parts of which one is delivered twice.
-    fn house() -> Feature {
+    fn house() -> Vec<Geometry> {
         let footprint = block([0.0; 3], 30.0).remove(0);
-        feature(vec![
+        vec![
             geometry(0.0, "house", vec![footprint]),
             geometry(1.2, "a", block([0.0; 3], 12.0)),
             geometry(2.2, "a", block([0.0; 3], 10.0)),
             geometry(1.2, "b", block([20.0, 0.0, 0.0], 5.0)),
-        ])
+        ]
     }
 
     #[test]
     fn every_level_is_in_the_envelope_and_the_best_in_the_mesh() {
-        let solid = Solid::of(&house());
+        let solid = solid(house());
         assert_eq!(solid.envelope.max, DVec3::new(30.0, 30.0, 12.0));
         assert_eq!(solid.mesh.triangles.len(), 24);
         assert_eq!(solid.level_of_detail, 2.2);
-        let inner = solid.inner.unwrap();
-        assert_eq!(
-            (inner.bounds.max, inner.grounded),
-            (DVec3::splat(10.0), true)
-        );
+        let hides = solid.hides.unwrap();
+        let inner = hides.inner.unwrap();
+        assert_eq!((inner.bounds.max, inner.grounded), (DVec3::splat(10.0), true));
+        let columns = hides.columns.columns;
+        assert_eq!(columns.len(), 2);
+        assert!(columns.iter().all(|column| column.grounded && column.bottom == 0.0));
+    }
+
+    #[test]
+    fn every_level_shows_all_parts() {
+        let solid = solid(house());
+        let levels: Vec<f64> = solid.levels.iter().map(|level| level.level_of_detail).collect();
+        assert_eq!(levels, [0.0, 1.2, 2.2]);
+        let errors: Vec<f64> = solid.levels.iter().filter_map(|l| l.geometric_error).collect();
+        assert_eq!(errors[1..], [8f64.sqrt(), 0.0]);
     }
 
     #[test]
     fn footprints_count_where_there_is_nothing_else() {
         let mut footprint = house();
-        footprint.geometries.truncate(1);
-        let solid = Solid::of(&footprint);
+        footprint.truncate(1);
+        let solid = solid(footprint);
         assert_eq!(solid.mesh.triangles.len(), 2);
-        assert!(solid.inner.is_err());
+        assert!(solid.hides.is_err());
     }
 
     #[test]
-    fn only_buildings_on_the_ground_are_grounded() {
-        let grounded = |class: &str, others: &[f64]| {
-            let mut solid = Solid::of(&house());
-            let neighbour = |&z: &f64| Box3d::new(DVec3::new(0.0, 40.0, z), DVec3::splat(50.0));
-            let envelopes: Vec<Box3d> = others
-                .iter()
-                .map(neighbour)
-                .chain([solid.envelope])
-                .collect();
-            solid.keep_ground(class, &LocalGround::new(&envelopes));
-            solid.inner.unwrap().grounded
-        };
-        assert!(grounded("Building", &[0.0, 0.0]) && grounded("BuildingPart", &[0.0, 0.0]));
-        assert!(!grounded("Bridge", &[0.0, 0.0]));
-        assert!(!grounded("Building", &[-6.0, -6.0]));
+    fn a_missing_bottom_is_added() {
+        let open = solid(vec![geometry(1.0, "a", block([0.0; 3], 10.0).split_off(1))]);
+        assert_eq!(open.closed_at, Some(0.0));
+        assert_eq!(open.hides.unwrap().columns.columns.len(), 1);
+        let unroofed = [0, 2, 3, 4, 5].map(|face| block([0.0; 3], 10.0)[face].clone());
+        let unroofed = solid(vec![geometry(1.0, "a", unroofed.to_vec())]);
+        assert_eq!(unroofed.closed_at, None);
+        assert!(unroofed.hides.is_err());
     }
 }

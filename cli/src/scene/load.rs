@@ -94,14 +94,10 @@ fn streets(client: &mut impl GenericClient, schema: &str) -> Result<Vec<Street>,
         .collect())
 }
 
-/// Whose data the first model says it is: the models of one file say the same.
 fn attribution(client: &mut impl GenericClient, schema: &str) -> Result<Option<String>, Failure> {
-    let statement = format!(
-        "SELECT content FROM {schema}.model WHERE format = 'cityjson' ORDER BY feature LIMIT 1"
-    );
+    let statement = format!("SELECT attribution FROM {schema}.scene_info");
     let row = client.query_opt(&statement, &[])?;
-    let model = row.and_then(|row| formats::read_city_json("model", row.get(0)).ok());
-    Ok(model.and_then(|model| model.attribution))
+    Ok(row.and_then(|row| row.get(0)))
 }
 
 #[cfg(test)]

@@ -15,8 +15,19 @@ use pgrx::datum::DatumWithOid;
 use pgrx::{PgSqlErrorCode, Spi};
 
 /// Raises an error unless `scene` is a scene of real tables.
-fn require(scene: &str) {
+pub fn require(scene: &str) {
     run("SELECT occlusion.require_scene($1)", &[scene.into()]);
+}
+
+/// An argument that must be given.
+pub fn given<T>(argument: Option<T>, name: &str) -> T {
+    argument.unwrap_or_else(|| {
+        Refusal::new(
+            PgSqlErrorCode::ERRCODE_NULL_VALUE_NOT_ALLOWED,
+            format!("parameter {name} must not be null"),
+        )
+        .raise()
+    })
 }
 
 /// Runs a statement whose result nobody needs.
@@ -32,12 +43,12 @@ fn count(number: usize) -> i64 {
 }
 
 /// A name quoted for SQL text.
-fn quoted(name: &str) -> String {
+pub fn quoted(name: &str) -> String {
     pgrx::spi::quote_identifier(name)
 }
 
 /// Raises an SPI failure that is not an SQL error of its own (those unwind by themselves).
-fn failed(error: &pgrx::spi::Error) -> ! {
+pub fn failed(error: &pgrx::spi::Error) -> ! {
     Refusal::new(
         PgSqlErrorCode::ERRCODE_INTERNAL_ERROR,
         format!("query failed: {error}"),

@@ -4,7 +4,7 @@ use super::job::Job;
 use super::procedure::Procedure;
 use super::snapshot::{Snapshot, Target};
 use super::workers::Workers;
-use super::{count, quoted, require, run, streets};
+use super::{count, given, quoted, require, run, streets};
 use crate::error::Refusal;
 use engine::{OcclusionVolume, Street, VolumeOptions, VolumeSolver};
 use pgrx::{PgSqlErrorCode, notice, pg_extern, pg_sys};
@@ -27,7 +27,7 @@ fn generate_occlusion_volumes(
     worth: Option<f64>,
     fcinfo: pg_sys::FunctionCallInfo,
 ) {
-    let Some(scene) = scene else { missing("scene") };
+    let scene = given(scene, "scene");
     let asked = Asked::checked(smallest, range, worth);
     let mut procedure = Procedure::begin(fcinfo, TASK);
     require(scene);
@@ -92,11 +92,8 @@ struct Asked {
 
 impl Asked {
     fn checked(smallest: Option<f64>, range: Option<f64>, worth: Option<f64>) -> Self {
-        let Some(smallest) = smallest else {
-            missing("smallest")
-        };
         Self {
-            smallest: positive(smallest, "smallest"),
+            smallest: positive(given(smallest, "smallest"), "smallest"),
             range: range.map(|value| positive(value, "range")),
             worth: worth.map(|value| positive(value, "worth")),
         }
@@ -121,14 +118,6 @@ fn positive(value: f64, name: &str) -> f64 {
         format!("{name} {value} is out of bounds"),
     )
     .detail(format!("{name} is a finite number above 0."))
-    .raise()
-}
-
-fn missing(parameter: &str) -> ! {
-    Refusal::new(
-        PgSqlErrorCode::ERRCODE_NULL_VALUE_NOT_ALLOWED,
-        format!("parameter {parameter} must not be null"),
-    )
     .raise()
 }
 

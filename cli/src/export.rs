@@ -28,7 +28,11 @@ pub struct Export {
     #[command(flatten)]
     field_of_view: Option<FieldOfView>,
     /// Every feature of the scene instead of what an observer sees
-    #[arg(long, conflicts_with = "observer", required_unless_present = "observer")]
+    #[arg(
+        long,
+        conflicts_with = "observer",
+        required_unless_present = "observer"
+    )]
     all: bool,
     /// File to write
     #[arg(short, long, value_name = "FILE")]
@@ -118,7 +122,10 @@ impl Export {
         )?;
         let content: &[u8] = row.get(0);
         fs::write(&self.output, content).map_err(|error| {
-            Failure::Machine(format!("cannot write \"{}\": {error}", self.output.display()))
+            Failure::Machine(format!(
+                "cannot write \"{}\": {error}",
+                self.output.display()
+            ))
         })?;
         spinner.finish_and_clear();
         anstream::println!(
@@ -158,6 +165,9 @@ mod tests {
         assert_eq!(format("town.wrl"), Some("vrml97"));
         assert_eq!(format("town.city.json"), Some("cityjson"));
         assert_eq!(format("town.city.jsonl"), Some("cityjsonseq"));
-        assert_eq!([format("town"), format("town.obj"), format("..")], [None, None, None]);
+        assert_eq!(
+            [format("town"), format("town.obj"), format("..")],
+            [None, None, None]
+        );
     }
 }

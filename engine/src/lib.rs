@@ -8,6 +8,7 @@ mod city;
 mod field_of_view;
 mod mesh;
 mod shadow_region;
+mod solid;
 mod solid_column;
 mod umbra;
 mod view_region;
@@ -21,6 +22,7 @@ pub use mesh::{
     TriangleMesh, deviation, extruded, inner_envelope, triangulate,
 };
 pub use shadow_region::ShadowRegion;
+pub use solid::{Hides, Solid};
 pub use solid_column::SolidColumn;
 pub use umbra::{OCCLUDER_MARGIN, Occluder, umbra_in_band};
 pub use view_region::{

@@ -18,6 +18,7 @@ mod placement;
 mod ply;
 mod scene;
 mod vrml;
+mod wkb;
 
 pub use error::{FormatError, Problem};
 pub use format::{Format, read, read_bytes};
@@ -27,3 +28,4 @@ pub use scene::{
     Changed, Feature, Geometry, Material, Model, Part, SceneDescription, Semantic, Shape, Skipped,
     Street, Surface,
 };
+pub use wkb::read_wkb;

@@ -59,7 +59,10 @@ impl OpenFile {
 /// The content of a file that another one names: in the same folder or below it, never elsewhere.
 pub fn companion(of: &Path, name: &str) -> io::Result<Vec<u8>> {
     let relative = Path::new(name);
-    if !relative.components().all(|part| matches!(part, Component::Normal(_))) {
+    if !relative
+        .components()
+        .all(|part| matches!(part, Component::Normal(_)))
+    {
         return Err(io::Error::new(
             io::ErrorKind::PermissionDenied,
             "it is not beside the file that names it",
@@ -74,8 +77,13 @@ mod tests {
 
     #[test]
     fn files_that_are_not_there_are_named() {
-        let refused = open_all(&["no/such/file.json".into()]).unwrap_err().to_string();
-        assert!(refused.starts_with("cannot read \"no/such/file.json\": "), "{refused}");
+        let refused = open_all(&["no/such/file.json".into()])
+            .unwrap_err()
+            .to_string();
+        assert!(
+            refused.starts_with("cannot read \"no/such/file.json\": "),
+            "{refused}"
+        );
         let refused = open_all(&[".".into()]).unwrap_err().to_string();
         assert!(refused.starts_with("cannot read \".\": "), "{refused}");
     }
@@ -84,9 +92,18 @@ mod tests {
     fn companions_lie_beside_the_file() {
         let here = Path::new("src/import/file.rs");
         assert!(companion(here, "mod.rs").is_ok());
-        for elsewhere in ["../main.rs", "/etc/hostname", "a/../../main.rs", "./mod.rs/.."] {
+        for elsewhere in [
+            "../main.rs",
+            "/etc/hostname",
+            "a/../../main.rs",
+            "./mod.rs/..",
+        ] {
             let refused = companion(here, elsewhere).unwrap_err();
-            assert_eq!(refused.kind(), io::ErrorKind::PermissionDenied, "{elsewhere}");
+            assert_eq!(
+                refused.kind(),
+                io::ErrorKind::PermissionDenied,
+                "{elsewhere}"
+            );
         }
     }
 }

@@ -33,7 +33,9 @@ impl Frame {
         match (&self.known, said) {
             _ if self.asked.is_some() => Ok(()),
             (Some((known, who)), Some(srid)) if *known != srid => {
-                let who = who.as_ref().map_or("the scene".to_owned(), |p| p.display().to_string());
+                let who = who
+                    .as_ref()
+                    .map_or("the scene".to_owned(), |p| p.display().to_string());
                 Err(Failure::Input(format!(
                     "{} is in EPSG:{srid}, but {who} is in EPSG:{known}\n  \
                      hint: --srid N takes both as EPSG:N",
@@ -73,9 +75,18 @@ mod tests {
     #[test]
     fn the_scene_has_a_frame_and_the_user_the_last_word() {
         let file = Path::new("a.json");
-        let refused = Frame::new(None, Some(7415)).agree(Some(28992), file).unwrap_err();
-        assert!(refused.to_string().contains("but the scene is in EPSG:7415"));
-        assert_eq!(Frame::new(None, Some(0)).agree(Some(28992), file).ok(), Some(()));
+        let refused = Frame::new(None, Some(7415))
+            .agree(Some(28992), file)
+            .unwrap_err();
+        assert!(
+            refused
+                .to_string()
+                .contains("but the scene is in EPSG:7415")
+        );
+        assert_eq!(
+            Frame::new(None, Some(0)).agree(Some(28992), file).ok(),
+            Some(())
+        );
         let mut asked = Frame::new(Some(5), None);
         asked.agree(Some(28992), file).unwrap();
         assert_eq!(asked.srid(), Some(5));

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use engine::ColumnOptions;
-use formats::{Feature, Format, SceneDescription};
+use formats::{Format, SceneDescription};
 use postgres::Transaction;
 use rayon::prelude::*;
 
 use super::frame::Frame;
-use super::ground::{self, Standing};
+use super::ground;
 use super::names::Names;
 use super::report::Report;
 use super::solid::Solid;
@@ -25,7 +25,7 @@ pub struct Importer<'a> {
     options: ColumnOptions,
     frame: Frame,
     names: Names,
-    standing: Vec<Standing>,
+    first_feature: Option<i64>,
     roads: Vec<formats::Street>,
     tally: Tally,
 }
@@ -43,7 +43,9 @@ impl<'a> Importer<'a> {
         if transaction.query_opt(exists, &[&scene])?.is_some() {
             transaction.execute("SELECT occlusion.require_scene($1)", &[&scene])?;
             let statement = format!("SELECT srid FROM {}.scene_info", quoted(scene));
-            known = transaction.query_opt(&statement, &[])?.map(|row| row.get(0));
+            known = transaction
+                .query_opt(&statement, &[])?
+                .map(|row| row.get(0));
             refuse_other_frame(scene, srid, known)?;
         } else {
             transaction.execute("SELECT occlusion.create_scene($1)", &[&scene])?;
@@ -54,7 +56,7 @@ impl<'a> Importer<'a> {
             options,
             frame: Frame::new(srid, known),
             names: Names::default(),
-            standing: Vec::new(),
+            first_feature: None,
             roads: Vec::new(),
             tally: Tally::default(),
         })
@@ -68,7 +70,8 @@ impl<'a> Importer<'a> {
     /// Writes a batch of a file.
     pub fn add(&mut self, path: &Path, batch: SceneDescription) -> Result<(), Failure> {
         self.frame.agree(batch.srid, path)?;
-        self.names.take(&mut self.transaction, self.scene, path, &batch.features)?;
+        self.names
+            .take(&mut self.transaction, self.scene, path, &batch.features)?;
         let options = &self.options;
         let solids: Vec<Solid> = batch
             .features
@@ -81,9 +84,7 @@ impl<'a> Importer<'a> {
         let source = path.display().to_string();
         let (skipped, changed) = (&batch.skipped, &batch.changed);
         rows::remarks(&mut self.transaction, self.scene, &source, skipped, changed)?;
-        let numbered = ids.iter().zip(&batch.features).zip(&solids);
-        self.standing
-            .extend(numbered.filter_map(|((&id, feature), solid)| standing(id, feature, solid)));
+        self.first_feature = self.first_feature.or(ids.first().copied());
         self.tally.add(&batch, &solids);
         self.roads.extend(batch.streets);
         Ok(())
@@ -91,15 +92,19 @@ impl<'a> Importer<'a> {
 
     /// Notes that a file came to its end.
     pub fn end_file(&mut self, path: &Path, format: Format) -> Result<(), Failure> {
-        self.tally.files.push(format!("{} ({format})", path.display()));
+        self.tally
+            .files
+            .push(format!("{} ({format})", path.display()));
         Ok(())
     }
 
     /// Does what needs the whole scene, and commits.
     pub fn finish(mut self) -> Result<Report<'a>, Failure> {
         let spinner = terminal::spinner("streets");
-        let hanging = ground::settle(&mut self.transaction, self.scene, &self.standing)?;
-        self.tally.take_down(&hanging);
+        if let Some(first) = self.first_feature {
+            let hanging = ground::settle(&mut self.transaction, self.scene, first)?;
+            self.tally.take_down(&hanging);
+        }
         let mut made = 0;
         if !self.roads.is_empty() {
             let streets = streets::of_roads(&mut self.transaction, self.scene, &self.roads)?;
@@ -138,9 +143,18 @@ impl<'a> Importer<'a> {
         for attribution in &self.tally.attributions {
             self.transaction.execute(&statement, &[attribution])?;
         }
-        let tables = ["feature", "mesh", "model", "inner_envelope", "solid_column", "street"];
+        let tables = [
+            "feature",
+            "mesh",
+            "model",
+            "inner_envelope",
+            "solid_column",
+            "street",
+        ];
         let tables = tables.map(|table| format!("{schema}.{table}")).join(", ");
-        Ok(self.transaction.batch_execute(&format!("ANALYZE {tables}"))?)
+        Ok(self
+            .transaction
+            .batch_execute(&format!("ANALYZE {tables}"))?)
     }
 }
 
@@ -152,18 +166,4 @@ fn refuse_other_frame(scene: &str, asked: Option<i32>, known: Option<i32>) -> Re
         ))),
         _ => Ok(()),
     }
-}
-
-/// What is to be settled about a feature when all are known.
-fn standing(id: i64, feature: &Feature, solid: &Solid) -> Option<Standing> {
-    let hides = solid.hides.as_ref().ok()?;
-    let grounded = hides.inner.is_some_and(|inner| inner.grounded)
-        || hides.columns.columns.iter().any(|column| column.grounded);
-    (grounded || solid.closed_at.is_some()).then(|| Standing {
-        id,
-        class: feature.class.clone(),
-        envelope: solid.envelope,
-        foot: solid.mesh.envelope().map_or(f64::NAN, |bounds| bounds.min.z),
-        closed: solid.closed_at.is_some(),
-    })
 }

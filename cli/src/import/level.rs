@@ -27,7 +27,11 @@ pub enum StoredModel {
 impl Level {
     /// All levels of a feature, the best last. `best` is the mesh of the best one.
     pub fn of(feature: &Feature, best: &TriangleMesh) -> Vec<Self> {
-        let mut levels: Vec<f64> = feature.geometries.iter().map(|g| g.level_of_detail).collect();
+        let mut levels: Vec<f64> = feature
+            .geometries
+            .iter()
+            .map(|g| g.level_of_detail)
+            .collect();
         levels.sort_unstable_by(f64::total_cmp);
         levels.dedup();
         let finest = levels.last().copied();
@@ -52,7 +56,15 @@ impl Level {
 
 impl StoredModel {
     fn of(feature: &Feature, geometries: &[&Geometry]) -> Self {
-        if let [Geometry { part: None, shape, placement: Some(placement), .. }] = geometries {
+        if let [
+            Geometry {
+                part: None,
+                shape,
+                placement: Some(placement),
+                ..
+            },
+        ] = geometries
+        {
             return Self::Instance(formats::pack_shape(shape), *placement);
         }
         let geometries: Vec<Geometry> = geometries.iter().map(|&g| g.clone()).collect();
@@ -63,7 +75,10 @@ impl StoredModel {
 /// The geometries that show a feature at its best.
 pub fn best_geometries(feature: &Feature) -> Vec<&Geometry> {
     let levels = feature.geometries.iter().map(|g| g.level_of_detail);
-    geometries_at(&feature.geometries, levels.fold(f64::NEG_INFINITY, f64::max))
+    geometries_at(
+        &feature.geometries,
+        levels.fold(f64::NEG_INFINITY, f64::max),
+    )
 }
 
 /// The geometries that show a feature at one level of detail: of each part the highest level up to

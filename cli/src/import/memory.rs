@@ -31,7 +31,9 @@ impl FromStr for Memory {
         };
         let number: u64 = digits.parse().map_err(|_| "it is no whole number")?;
         let bytes = number.checked_mul(unit).filter(|&bytes| bytes >= 1 << 20);
-        bytes.map(Self).ok_or_else(|| "it is not between 1 MB and 16 EB".to_owned())
+        bytes
+            .map(Self)
+            .ok_or_else(|| "it is not between 1 MB and 16 EB".to_owned())
     }
 }
 
@@ -45,7 +47,15 @@ mod tests {
         assert_eq!("2g".parse(), Ok(Memory(2 << 30)));
         assert_eq!("1048576".parse(), Ok(Memory(1 << 20)));
         assert_eq!(Memory(8 << 20).batch_bytes(), 1 << 20);
-        for wrong in ["", "GB", "1.5GB", "12TB", "1kB", "99999999999999999999GB", "-1GB"] {
+        for wrong in [
+            "",
+            "GB",
+            "1.5GB",
+            "12TB",
+            "1kB",
+            "99999999999999999999GB",
+            "-1GB",
+        ] {
             assert!(wrong.parse::<Memory>().is_err(), "{wrong}");
         }
     }

@@ -88,15 +88,17 @@ impl Import {
                 batch_bytes: self.memory.batch_bytes(),
                 companion: &|name| file::companion(&path, name),
             };
-            let format = file.read(&bar, &options, &mut |batch| {
-                match importer.add(&path, batch) {
+            let format = file.read(
+                &bar,
+                &options,
+                &mut |batch| match importer.add(&path, batch) {
                     Ok(()) => ControlFlow::Continue(()),
                     Err(error) => {
                         failure = Some(error);
                         ControlFlow::Break(())
                     }
-                }
-            });
+                },
+            );
             failure.map_or(Ok(()), Err)?;
             importer.end_file(&path, format?)?;
         }

@@ -48,7 +48,10 @@ fn refuse_known(
     scene: &str,
     features: &[Feature],
 ) -> Result<(), Failure> {
-    let names: Vec<&str> = features.iter().map(|feature| feature.name.as_str()).collect();
+    let names: Vec<&str> = features
+        .iter()
+        .map(|feature| feature.name.as_str())
+        .collect();
     let statement = format!(
         "SELECT min(name), count(*) FROM {}.feature WHERE name = ANY ($1)",
         quoted(scene)

@@ -51,8 +51,16 @@ impl Display for Report<'_> {
             line(f, "dropped", &text)?;
         }
         match self.open_space {
-            Some(pieces) => line(f, "streets", &format!("none: open space in {pieces} pieces"))?,
-            None => line(f, "streets", &format!("{} pieces of roads", grouped(self.streets)))?,
+            Some(pieces) => line(
+                f,
+                "streets",
+                &format!("none: open space in {pieces} pieces"),
+            )?,
+            None => line(
+                f,
+                "streets",
+                &format!("{} pieces of roads", grouped(self.streets)),
+            )?,
         }
         if let Some(extent) = &tally.extent {
             line(f, "extent", &extent_text(extent))?;
@@ -111,9 +119,16 @@ fn write_groups(
         line(f, label, &grouped(total))?;
     }
     for (reason, group) in groups {
-        let examples: Vec<String> =
-            group.examples.iter().map(|name| name.escape_debug().to_string()).collect();
-        let more = if group.count > examples.len() { ", …" } else { "" };
+        let examples: Vec<String> = group
+            .examples
+            .iter()
+            .map(|name| name.escape_debug().to_string())
+            .collect();
+        let more = if group.count > examples.len() {
+            ", …"
+        } else {
+            ""
+        };
         let text = format!(
             "{} {FAINT}{}{more}{FAINT:#}",
             grouped(group.count),

@@ -34,8 +34,13 @@ pub fn features(
     let mut copy = Copy::begin(transaction, scene, "feature", columns)?;
     for (i, feature) in features.iter().enumerate() {
         let envelope = sql_types::Box3d::from(envelopes[i]);
-        let slot = i32::try_from(slots[i]).ok().and_then(|slot| slot.checked_add(first_slot));
-        let outline = solids[i].prism.as_ref().map(|prism| ring(prism.hull.exterior()));
+        let slot = i32::try_from(slots[i])
+            .ok()
+            .and_then(|slot| slot.checked_add(first_slot));
+        let outline = solids[i]
+            .prism
+            .as_ref()
+            .map(|prism| ring(prism.hull.exterior()));
         copy.row(&[
             &ids[i],
             &feature.name,
@@ -60,7 +65,7 @@ pub fn shapes(
     meshes(transaction, scene, ids, solids)?;
     let hides = || {
         let numbered = ids.iter().zip(solids);
-        numbered.filter_map(|(id, solid)| Some((id, solid.hides.as_ref().ok()?)))
+        numbered.filter_map(|(id, solid)| Some((id, solid.hides()?)))
     };
     let columns = "feature, box, grounded";
     let mut copy = Copy::begin(transaction, scene, "inner_envelope", columns)?;
@@ -71,7 +76,13 @@ pub fn shapes(
     let columns = "feature, footprint, bottom, top, grounded";
     let mut copy = Copy::begin(transaction, scene, "solid_column", columns)?;
     for (id, hides) in hides() {
-        for SolidColumn { footprint, bottom, top, grounded } in &hides.columns.columns {
+        for SolidColumn {
+            footprint,
+            bottom,
+            top,
+            grounded,
+        } in &hides.columns.columns
+        {
             copy.row(&[id, &rings(footprint), bottom, top, grounded])?;
         }
     }
@@ -87,15 +98,21 @@ fn meshes(
     let columns = "feature, level_of_detail, vertices, triangles, defect, repair";
     let mut copy = Copy::begin(transaction, scene, "mesh", columns)?;
     for (id, solid) in ids.iter().zip(solids) {
+        let level_of_detail = solid.level_of_detail;
+        let solid = &solid.solid;
         let vertices = solid.mesh.vertices.iter().flat_map(|v| v.to_array());
         let numbers = solid.mesh.triangles.as_flattened().iter();
         copy.row(&[
             id,
-            &solid.level_of_detail,
+            &level_of_detail,
             &vertices.collect::<Vec<f64>>(),
-            &numbers.map(|&number| number.cast_signed()).collect::<Vec<i32>>(),
+            &numbers
+                .map(|&number| number.cast_signed())
+                .collect::<Vec<i32>>(),
             &solid.hides.as_ref().err().map(ToString::to_string),
-            &solid.closed_at.map(|foot| format!("closed at its foot, {foot} m")),
+            &solid
+                .closed_at
+                .map(|foot| format!("closed at its foot, {foot} m")),
         ])?;
     }
     copy.finish()
@@ -118,8 +135,7 @@ pub fn models(
             transaction.execute(&insert, &[&formats::digest(content).as_slice(), content])?;
         }
     }
-    let columns =
-        "feature, level_of_detail, format, content, shape, placement, geometric_error";
+    let columns = "feature, level_of_detail, format, content, shape, placement, geometric_error";
     let mut copy = Copy::begin(transaction, scene, "model", columns)?;
     for (id, solid) in ids.iter().zip(solids) {
         for level in &solid.levels {

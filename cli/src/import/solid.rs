@@ -1,6 +1,6 @@
 //! [`Solid`], what a feature of a file is made of.
 
-use engine::{Box3d, ColumnOptions, InnerEnvelope, MeshDefect, OuterPrism, SolidColumns, TriangleMesh};
+use engine::{Box3d, ColumnOptions, Hides, OuterPrism};
 use formats::Feature;
 use glam::DVec3;
 
@@ -15,23 +15,10 @@ pub struct Solid {
     pub prism: Option<OuterPrism>,
     /// The best level of detail that is in the mesh.
     pub level_of_detail: f64,
-    /// Its surface, closed at the foot where only its bottom was missing.
-    pub mesh: TriangleMesh,
-    /// Height at which the mesh was closed, if it was.
-    pub closed_at: Option<f64>,
-    /// What hides others, or why there is no such thing.
-    pub hides: Result<Hides, MeshDefect>,
+    /// Its surface, and what hides others.
+    pub solid: engine::Solid,
     /// Its models, the best level of detail last.
     pub levels: Vec<Level>,
-}
-
-/// What hides others.
-#[derive(Clone, Debug, Default)]
-pub struct Hides {
-    /// In its simple form.
-    pub inner: Option<InnerEnvelope>,
-    /// In its full form.
-    pub columns: SolidColumns,
 }
 
 impl Solid {
@@ -43,43 +30,20 @@ impl Solid {
         let points = points(feature);
         let envelope = Box3d::around(points.iter().copied());
         let level = best.iter().map(|geometry| geometry.level_of_detail);
-        let level_of_detail = level.fold(f64::NEG_INFINITY, f64::max);
-        let (mesh, closed_at) = closed(delivered);
         Self {
             // The reader gives no feature without a surface.
             envelope: envelope.unwrap_or(Box3d::new(DVec3::ZERO, DVec3::ZERO)),
             prism: OuterPrism::around(points),
-            level_of_detail,
-            hides: Hides::of(&mesh, options),
-            mesh,
-            closed_at,
+            level_of_detail: level.fold(f64::NEG_INFINITY, f64::max),
+            solid: engine::Solid::of(delivered, options),
             levels,
         }
     }
-}
 
-impl Hides {
-    fn of(mesh: &TriangleMesh, options: &ColumnOptions) -> Result<Self, MeshDefect> {
-        let columns = engine::solid_columns(mesh, options)?;
-        let inner = engine::inner_envelope(mesh);
-        match inner {
-            Err(defect) if columns.columns.is_empty() => Err(defect),
-            inner => Ok(Self {
-                inner: inner.ok(),
-                columns,
-            }),
-        }
+    /// What hides others, if something does.
+    pub fn hides(&self) -> Option<&Hides> {
+        self.solid.hides.as_ref().ok()
     }
-}
-
-/// A mesh whose bottom is missing, closed there; any other as it is.
-fn closed(mut mesh: TriangleMesh) -> (TriangleMesh, Option<f64>) {
-    let Some(cap) = mesh.foot_cap() else {
-        return (mesh, None);
-    };
-    mesh.triangles.extend(cap);
-    let foot = mesh.envelope().map(|bounds| bounds.min.z);
-    (mesh, foot)
 }
 
 /// Every position of every level of detail, those that a GLB rounds to included.
@@ -115,7 +79,11 @@ mod tests {
             [1, 3, 7, 5],
         ]
         .map(|face: [usize; 4]| Surface {
-            rings: vec![face.iter().map(|&corner| corners[corner].to_array()).collect()],
+            rings: vec![
+                face.iter()
+                    .map(|&corner| corners[corner].to_array())
+                    .collect(),
+            ],
             ..Surface::default()
         })
         .to_vec()
@@ -159,22 +127,37 @@ mod tests {
     fn every_level_is_in_the_envelope_and_the_best_in_the_mesh() {
         let solid = solid(house());
         assert_eq!(solid.envelope.max, DVec3::new(30.0, 30.0, 12.0));
-        assert_eq!(solid.mesh.triangles.len(), 24);
+        assert_eq!(solid.solid.mesh.triangles.len(), 24);
         assert_eq!(solid.level_of_detail, 2.2);
-        let hides = solid.hides.unwrap();
+        let hides = solid.hides().unwrap();
         let inner = hides.inner.unwrap();
-        assert_eq!((inner.bounds.max, inner.grounded), (DVec3::splat(10.0), true));
-        let columns = hides.columns.columns;
+        assert_eq!(
+            (inner.bounds.max, inner.grounded),
+            (DVec3::splat(10.0), true)
+        );
+        let columns = &hides.columns.columns;
         assert_eq!(columns.len(), 2);
-        assert!(columns.iter().all(|column| column.grounded && column.bottom == 0.0));
+        assert!(
+            columns
+                .iter()
+                .all(|column| column.grounded && column.bottom == 0.0)
+        );
     }
 
     #[test]
     fn every_level_shows_all_parts() {
         let solid = solid(house());
-        let levels: Vec<f64> = solid.levels.iter().map(|level| level.level_of_detail).collect();
+        let levels: Vec<f64> = solid
+            .levels
+            .iter()
+            .map(|level| level.level_of_detail)
+            .collect();
         assert_eq!(levels, [0.0, 1.2, 2.2]);
-        let errors: Vec<f64> = solid.levels.iter().filter_map(|l| l.geometric_error).collect();
+        let errors: Vec<f64> = solid
+            .levels
+            .iter()
+            .filter_map(|l| l.geometric_error)
+            .collect();
         assert_eq!(errors[1..], [8f64.sqrt(), 0.0]);
     }
 
@@ -183,18 +166,18 @@ mod tests {
         let mut footprint = house();
         footprint.truncate(1);
         let solid = solid(footprint);
-        assert_eq!(solid.mesh.triangles.len(), 2);
-        assert!(solid.hides.is_err());
+        assert_eq!(solid.solid.mesh.triangles.len(), 2);
+        assert!(solid.hides().is_none());
     }
 
     #[test]
     fn a_missing_bottom_is_added() {
         let open = solid(vec![geometry(1.0, "a", block([0.0; 3], 10.0).split_off(1))]);
-        assert_eq!(open.closed_at, Some(0.0));
-        assert_eq!(open.hides.unwrap().columns.columns.len(), 1);
+        assert_eq!(open.solid.closed_at, Some(0.0));
+        assert_eq!(open.hides().unwrap().columns.columns.len(), 1);
         let unroofed = [0, 2, 3, 4, 5].map(|face| block([0.0; 3], 10.0)[face].clone());
         let unroofed = solid(vec![geometry(1.0, "a", unroofed.to_vec())]);
-        assert_eq!(unroofed.closed_at, None);
-        assert!(unroofed.hides.is_err());
+        assert_eq!(unroofed.solid.closed_at, None);
+        assert!(unroofed.hides().is_none());
     }
 }

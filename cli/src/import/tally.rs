@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use engine::{Box3d, MeshDefect};
+use engine::{Box3d, Hides, MeshDefect};
 use formats::SceneDescription;
 
 use super::ground::Hanging;
-use super::solid::{Hides, Solid};
+use super::solid::Solid;
 
 /// Most names kept as examples of a group.
 pub const EXAMPLES: usize = 5;
@@ -74,9 +74,13 @@ impl Tally {
                 Some(extent) => extent.union(&solid.envelope),
                 None => solid.envelope,
             });
-            match &solid.hides {
+            match &solid.solid.hides {
                 Ok(hides) => self.add_solid(hides, solid),
-                Err(defect) => self.hollow.entry(kind(defect).to_owned()).or_default().add(&feature.name),
+                Err(defect) => self
+                    .hollow
+                    .entry(kind(defect).to_owned())
+                    .or_default()
+                    .add(&feature.name),
             }
         }
         for skipped in &batch.skipped {
@@ -85,30 +89,31 @@ impl Tally {
         }
         for changed in &batch.changed {
             let difference = format!("{}: {}", changed.class, changed.how);
-            self.changed.entry(difference).or_default().add(&changed.name);
+            self.changed
+                .entry(difference)
+                .or_default()
+                .add(&changed.name);
         }
         self.degenerate_rings += batch.degenerate_rings;
     }
 
     fn add_solid(&mut self, hides: &Hides, solid: &Solid) {
         self.solid += 1;
-        self.closed += usize::from(solid.closed_at.is_some());
+        self.closed += usize::from(solid.solid.closed_at.is_some());
         let columns = &hides.columns;
-        let grounded = hides.inner.is_some_and(|inner| inner.grounded)
-            || columns.columns.iter().any(|column| column.grounded);
-        self.grounded += usize::from(grounded);
+        self.grounded += usize::from(hides.is_grounded());
         self.columns.push(columns.columns.len());
-        let volume = solid.mesh.signed_volume();
+        let volume = solid.solid.mesh.signed_volume();
         self.volume[0] += volume;
         self.volume[1] += volume * columns.share;
     }
 
     /// Takes back what turned out to hang in the air.
     pub fn take_down(&mut self, hanging: &Hanging) {
-        let open = hanging.open.len();
-        self.grounded -= hanging.aloft.len() + open;
-        self.solid -= open;
-        self.closed -= open;
+        let Hanging { aloft, open } = *hanging;
+        self.grounded = self.grounded.saturating_sub(aloft + open);
+        self.solid = self.solid.saturating_sub(open);
+        self.closed = self.closed.saturating_sub(open);
         if open > 0 {
             let group = self.hollow.entry("open, and not on the ground".to_owned());
             group.or_default().count += open;
@@ -137,6 +142,9 @@ mod tests {
     fn groups_keep_the_first_names() {
         let mut group = Group::default();
         (0..9).for_each(|i| group.add(&i.to_string()));
-        assert_eq!((group.count, group.examples.join("")), (9, "01234".to_owned()));
+        assert_eq!(
+            (group.count, group.examples.join("")),
+            (9, "01234".to_owned())
+        );
     }
 }

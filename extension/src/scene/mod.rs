@@ -1,14 +1,18 @@
 //! Procedures on scenes: they read tables by SPI, let `engine` compute, and write rows back.
 
 mod city;
+mod ground;
 mod job;
 mod occlusion_volumes;
-mod polygon;
+pub mod polygon;
 mod procedure;
 mod snapshot;
 mod streets;
 mod view_region;
 mod workers;
+
+pub use ground::settle;
+pub use workers::Workers;
 
 use crate::error::Refusal;
 use pgrx::datum::DatumWithOid;

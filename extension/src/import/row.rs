@@ -1,0 +1,65 @@
+//! [`Source`], a row that is to become a feature.
+
+use crate::scene::polygon;
+use geo::Polygon;
+use pgrx::JsonB;
+use pgrx::spi::SpiHeapTupleData;
+
+/// A row that is to become a feature. Its columns: name text, class text, attributes jsonb, then
+/// footprint text[] (rings as core's polygon writes them), bottom and top in metres, or surfaces
+/// bytea (well-known binary).
+pub struct Source {
+    /// Identifier, if it has one.
+    pub name: Option<String>,
+    /// Kind of object.
+    pub class: Option<String>,
+    /// Attributes.
+    pub attributes: Option<serde_json::Value>,
+    /// What it is made of.
+    pub shape: Shape,
+}
+
+/// What a feature is made from.
+pub enum Shape {
+    /// A footprint raised from one height to another, metres.
+    Raised(Polygon<f64>, f64, f64),
+    /// Surfaces in well-known binary.
+    Surfaces(Vec<u8>),
+    /// Nothing that can be used, with the reason.
+    Nothing(String),
+}
+
+impl Source {
+    /// Takes a row apart.
+    pub fn of(row: &SpiHeapTupleData) -> Result<Self, pgrx::spi::Error> {
+        let rings: Option<Vec<Option<String>>> = row.get(4)?;
+        let surfaces: Option<Vec<u8>> = row.get(7)?;
+        let shape = match (rings, surfaces) {
+            (_, Some(surfaces)) => Shape::Surfaces(surfaces),
+            (Some(rings), None) => raised(rings, row.get(5)?, row.get(6)?),
+            (None, None) => Shape::Nothing("no footprint".to_owned()),
+        };
+        Ok(Self {
+            name: row.get(1)?,
+            class: row.get(2)?,
+            attributes: row.get::<JsonB>(3)?.map(|attributes| attributes.0),
+            shape,
+        })
+    }
+}
+
+fn raised(rings: Vec<Option<String>>, bottom: Option<f64>, top: Option<f64>) -> Shape {
+    let rings: Option<Vec<String>> = rings.into_iter().collect();
+    let footprint = rings.and_then(|rings| polygon::area(&rings));
+    let why = match (footprint, bottom, top) {
+        (None, _, _) => "no footprint".to_owned(),
+        (_, None, _) | (_, _, None) => "no height".to_owned(),
+        (Some(footprint), Some(bottom), Some(top)) => {
+            if bottom < top && bottom.is_finite() && top.is_finite() {
+                return Shape::Raised(footprint, bottom, top);
+            }
+            format!("heights {bottom} to {top} are out of order")
+        }
+    };
+    Shape::Nothing(why)
+}

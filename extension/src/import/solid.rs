@@ -1,0 +1,45 @@
+//! [`Solid`], a row turned into a solid.
+
+use super::row::{Shape, Source};
+use engine::{Box3d, ColumnOptions, OuterPrism, TriangleMesh};
+use glam::DVec3;
+
+/// A row turned into a solid.
+pub struct Solid {
+    /// Holds all of it.
+    pub envelope: Box3d,
+    /// The same, tighter in plan.
+    pub prism: Option<OuterPrism>,
+    /// Its surface, and what hides others.
+    pub solid: engine::Solid,
+    /// Level of detail of the surface.
+    pub level_of_detail: f64,
+}
+
+impl Solid {
+    /// Builds it, or says why it cannot be built.
+    pub fn of(source: &Source) -> Result<Self, String> {
+        let (solid, level_of_detail) = match &source.shape {
+            Shape::Raised(footprint, bottom, top) => {
+                let solid = engine::Solid::raised(footprint, *bottom, *top);
+                (solid.map_err(|defect| format!("footprint: {defect}"))?, 1.0)
+            }
+            Shape::Surfaces(binary) => {
+                let surfaces = formats::read_wkb(binary).map_err(|problem| problem.to_string())?;
+                let ring = |ring: &Vec<[f64; 3]>| ring.iter().copied().map(DVec3::from).collect();
+                let mesh = TriangleMesh::from_polygons(
+                    surfaces.iter().map(|s| s.rings.iter().map(ring).collect::<Vec<Vec<_>>>()),
+                );
+                (engine::Solid::of(mesh, &ColumnOptions::default()), 2.0)
+            }
+            Shape::Nothing(why) => return Err(why.clone()),
+        };
+        let envelope = solid.mesh.envelope().ok_or("no surface")?;
+        Ok(Self {
+            envelope,
+            prism: OuterPrism::around(solid.mesh.vertices.iter().copied()),
+            solid,
+            level_of_detail,
+        })
+    }
+}

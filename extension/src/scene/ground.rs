@@ -1,0 +1,117 @@
+//! Which solids stand on the ground: that shows only in the feet of all features of a scene.
+
+use super::{count, failed, quoted, require, run};
+use crate::types::Box3d;
+use engine::LocalGround;
+use pgrx::Spi;
+use pgrx::iter::TableIterator;
+use pgrx::{name, pg_extern};
+
+/// A feature whose solids stand on its own foot.
+struct Standing {
+    id: i64,
+    class: String,
+    envelope: engine::Box3d,
+    foot: f64,
+    /// Whether its bottom had to be added: then it is solid only on the ground.
+    repaired: bool,
+}
+
+/// Corrects what is stored of new features that turn out to hang in the air.
+#[pg_extern(volatile, strict)]
+fn settle_ground(
+    scene: &str,
+    first_feature: i64,
+) -> TableIterator<'static, (name!(aloft, i64), name!(opened, i64))> {
+    require(scene);
+    TableIterator::once(settle(scene, first_feature))
+}
+
+/// Of the features from a number on, makes the solids of those that are not buildings on the ground
+/// ungrounded, and removes them where a bottom was added. Returns how many there are of each.
+pub fn settle(scene: &str, first_feature: i64) -> (i64, i64) {
+    let scene = quoted(scene);
+    let ground = LocalGround::new(&envelopes(&scene));
+    let hangs = |solid: &&Standing| {
+        let stands = solid.class.starts_with("Building") && ground.holds(&solid.envelope, solid.foot);
+        !stands
+    };
+    let standing = standing(&scene, first_feature);
+    let (open, aloft): (Vec<&Standing>, Vec<&Standing>) =
+        standing.iter().filter(hangs).partition(|solid| solid.repaired);
+    let ids = |solids: &[&Standing]| -> Vec<i64> { solids.iter().map(|solid| solid.id).collect() };
+    let theirs = "feature OPERATOR(pg_catalog.=) ANY ($1)";
+    for table in ["inner_envelope", "solid_column"] {
+        run(
+            &format!("UPDATE {scene}.{table} SET grounded = false WHERE grounded AND {theirs}"),
+            &[ids(&aloft).into()],
+        );
+        run(
+            &format!("DELETE FROM {scene}.{table} WHERE {theirs}"),
+            &[ids(&open).into()],
+        );
+    }
+    run(
+        &format!(
+            "UPDATE {scene}.mesh SET defect = 'open: no bottom, and not on the ground' \
+             WHERE {theirs}"
+        ),
+        &[ids(&open).into()],
+    );
+    (count(aloft.len()), count(open.len()))
+}
+
+fn envelopes(scene: &str) -> Vec<engine::Box3d> {
+    let envelopes = Spi::connect(|client| {
+        client
+            .select(&format!("SELECT envelope FROM {scene}.feature"), None, &[])?
+            .map(|row| row.get::<Box3d>(1))
+            .collect::<Result<Vec<_>, _>>()
+    });
+    let envelopes = envelopes.unwrap_or_else(|error| failed(&error));
+    envelopes.into_iter().flatten().map(|bounds| bounds.0).collect()
+}
+
+/// The features from a number on that have a grounded solid, or a bottom that was added.
+fn standing(scene: &str, first_feature: i64) -> Vec<Standing> {
+    let query = format!(
+        "SELECT f.id, f.class, f.envelope, least(s.foot, occlusion.z(occlusion.lower(i.box))), \
+                m.repair IS NOT NULL \
+         FROM {scene}.feature AS f \
+         LEFT JOIN (SELECT c.feature, min(c.bottom) AS foot, bool_or(c.grounded) AS grounded \
+                    FROM {scene}.solid_column AS c GROUP BY c.feature) AS s \
+                ON s.feature OPERATOR(pg_catalog.=) f.id \
+         LEFT JOIN {scene}.inner_envelope AS i ON i.feature OPERATOR(pg_catalog.=) f.id \
+         LEFT JOIN {scene}.mesh AS m ON m.feature OPERATOR(pg_catalog.=) f.id \
+         WHERE f.id OPERATOR(pg_catalog.>=) $1 \
+           AND (s.grounded OR i.grounded \
+                OR m.repair IS NOT NULL AND (s.feature IS NOT NULL OR i.feature IS NOT NULL))"
+    );
+    let standing = Spi::connect(|client| {
+        client
+            .select(&query, None, &[first_feature.into()])?
+            .map(|row| {
+                Ok((
+                    row.get::<i64>(1)?,
+                    row.get::<String>(2)?,
+                    row.get::<Box3d>(3)?,
+                    row.get::<f64>(4)?,
+                    row.get::<bool>(5)?,
+                ))
+            })
+            .collect::<Result<Vec<_>, pgrx::spi::Error>>()
+    });
+    standing
+        .unwrap_or_else(|error| failed(&error))
+        .into_iter()
+        .filter_map(|(id, class, envelope, foot, repaired)| {
+            Some(Standing {
+                id: id?,
+                class: class?,
+                envelope: envelope?.0,
+                foot: foot?,
+                repaired: repaired?,
+            })
+        })
+        .collect()
+}

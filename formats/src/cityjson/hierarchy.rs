@@ -73,16 +73,6 @@ impl Hierarchy {
         family
     }
 
-    /// The parent of an object.
-    pub(super) fn parent(&self, object: usize) -> Option<usize> {
-        self.parent[object]
-    }
-
-    /// The children of an object.
-    pub(super) fn children(&self, object: usize) -> &[usize] {
-        &self.children[object]
-    }
-
     /// An object that no root leads to: it has itself for an ancestor, or an ancestor that has.
     fn first_on_a_cycle(&self) -> Option<usize> {
         let mut reached = vec![false; self.parent.len()];

@@ -42,11 +42,6 @@ impl<'a> Members<'a> {
         })
     }
 
-    /// All names and values in their order.
-    pub(super) fn iter(&self) -> impl Iterator<Item = (&str, &'a RawValue)> {
-        self.0.iter().map(|(key, value)| (key.as_ref(), *value))
-    }
-
     /// All names and values, given away.
     pub(super) fn into_vec(self) -> Vec<(Cow<'a, str>, &'a RawValue)> {
         self.0
@@ -196,10 +191,12 @@ mod tests {
         let members = Members::of("value", raw).unwrap();
         assert_eq!(members.get("b").unwrap().get(), "[1,  2]");
         assert!(members.get("a\n").is_none());
-        assert_eq!(
-            members.iter().map(|(name, _)| name).collect::<Vec<_>>(),
-            ["b", "a\n"]
-        );
+        let names: Vec<_> = members
+            .into_vec()
+            .into_iter()
+            .map(|(name, _)| name)
+            .collect();
+        assert_eq!(names, ["b", "a\n"]);
     }
 
     #[test]

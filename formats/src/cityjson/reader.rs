@@ -200,37 +200,4 @@ mod tests {
             assert_eq!(message(|limits| *limit(limits) = less), expected);
         }
     }
-
-    #[test]
-    fn sources_are_limited_by_the_templates_they_repeat() {
-        let name = "a".repeat(1 << 15);
-        let template = format!("{{\"name\":\"{name}\",\"type\":\"MultiSurface\",");
-        let instance = r#""geometry":[{"type":"GeometryInstance","template":0,"boundaries":[0],
-            "transformationMatrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}]"#;
-        let trees: Vec<_> = (0..100)
-            .map(|i| format!("\"{i}\":{{\"type\":\"PlantCover\",{instance}}}"))
-            .collect();
-        let text = DOCUMENT
-            .replace(
-                "\"templates\":[{\"type\":\"MultiSurface\",",
-                &format!("\"templates\":[{template}"),
-            )
-            .replace("\"a\":", &format!("{},\"a\":", trees.join(",")));
-        let limits = Limits {
-            source_bytes: 0,
-            ..Limits::STANDARD
-        };
-        let error = read_within("a.json", text.as_bytes(), &limits)
-            .unwrap_err()
-            .to_string();
-        let limit = format!("bytes of sources exceed the limit of {}", 8 * text.len());
-        assert!(error.ends_with(&limit), "{error}");
-        assert_eq!(
-            read_city_json("a.json", text.as_bytes())
-                .unwrap()
-                .features
-                .len(),
-            102
-        );
-    }
 }

@@ -56,11 +56,6 @@ impl Templates {
         })
     }
 
-    /// The vertices of all templates.
-    pub(super) fn vertices(&self) -> &Vertices {
-        &self.vertices
-    }
-
     /// A template's surfaces, placed.
     pub(super) fn place(
         &self,

@@ -75,11 +75,6 @@ impl Vertices {
     pub(super) fn position(&self, index: usize) -> [f64; 3] {
         self.transform.apply(self.stored[index])
     }
-
-    /// A vertex as the file has it.
-    pub(super) fn stored(&self, index: usize) -> [f64; 3] {
-        self.stored[index]
-    }
 }
 
 /// A raw value that has to be an array of exactly N finite numbers.
@@ -156,7 +151,6 @@ mod tests {
             vertices.position(0).map(f64::to_bits),
             expected.map(f64::to_bits)
         );
-        assert_eq!(vertices.stored(0), [1234.0, -5.0, 1.0]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{BOX_SHELL, TRANSFORM, building, document, object, read_all};
-use formats::SceneDescription;
+use formats::{Part, SceneDescription};
 
 fn read(text: &str) -> SceneDescription {
     read_all("test.city.json", text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
@@ -174,50 +174,34 @@ fn descendants_are_merged_into_their_root_with_the_part_named() {
         .map(|g| (g.part.as_deref(), g.level_of_detail))
         .collect();
     assert_eq!(parts, [(Some("one"), 2.2), (Some("two"), 2.2)]);
-}
-
-/// A tree of one triangle, placed by a matrix at vertex 6 of the box.
-fn tree_document(matrix: &str, appearance: &str) -> String {
-    let tree = format!(
-        r#""t":{{"type":"SolitaryVegetationObject","geometry":[{{"type":"GeometryInstance",
-        "template":1,"boundaries":[6],"transformationMatrix":{matrix}}}]}}"#
-    );
-    let mut text = document(&[building("b"), tree].join(","));
-    text.pop();
-    text + r#","geometry-templates":{"vertices-templates":[[9.5,0,0],[1.5,0,0],[0,2.5,0],[0,0,3.5]],
-        "templates":[{"type":"MultiPoint","lod":"0","boundaries":[0]},
-        {"type":"MultiSurface","lod":"3","boundaries":[[[1,2,3]]],
-        "material":{"m":{"value":2}}}]}"#
-        + appearance
-        + "}"
+    let part = |name: &str| Part {
+        name: name.to_owned(),
+        class: "BuildingPart".to_owned(),
+        attributes: serde_json::json!({"x": 1}),
+    };
+    assert_eq!(feature.parts, [part("one"), part("two")]);
 }
 
 #[test]
-fn templates_are_placed_by_matrix_and_anchor_in_metres() {
-    let scene = read(&tree_document("[2,0,0,10, 0,1,0,0, 0,0,1,0, 0,0,0,1]", ""));
-    let geometry = &scene.features[1].geometries[0];
-    assert_eq!(
-        (geometry.part.as_deref(), geometry.level_of_detail),
-        (None, 3.0)
-    );
-    let [x, y, z] = [85002.0, 447003.0, 2.5];
-    let expected = [
-        [x + 13.0, y, z],
-        [x + 10.0, y + 2.5, z],
-        [x + 10.0, y, z + 3.5],
+fn parts_have_geometry_or_attributes() {
+    let part = |id: &str, members: &str| {
+        format!(r#""{id}":{{"type":"BuildingInstallation","parents":["b"]{members}}}"#)
+    };
+    let square = r#","geometry":[{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2,3]]]}]"#;
+    let points = r#","geometry":[{"type":"MultiPoint","lod":"2","boundaries":[0]}]"#;
+    let objects = [
+        building("b"),
+        part("bare", ""),
+        part("points", points),
+        part("named", r#","attributes":{"name":"chimney"}"#),
+        part("square", square),
     ];
-    assert_eq!(geometry.surfaces()[0].rings, [expected.to_vec()]);
-}
-
-#[test]
-fn mirrored_templates_keep_their_outside_outside() {
-    let scene = read(&tree_document("[1,0,0,0, 0,1,0,0, 0,0,-1,0, 0,0,0,1]", ""));
-    let ring = &scene.features[1].geometries[0].shape.surfaces[0].rings[0];
-    assert_eq!(
-        ring[0],
-        [85002.0, 447003.0, 2.5 - 3.5],
-        "the last vertex comes first"
-    );
+    let scene = read(&document(&objects.join(",")));
+    let parts: Vec<_> = scene.features[0].parts.iter().collect();
+    let names: Vec<_> = parts.iter().map(|part| part.name.as_str()).collect();
+    assert_eq!(names, ["named", "square"]);
+    assert_eq!(parts[1].attributes, serde_json::json!({}));
+    assert_eq!(scene.features[0].geometries[0].part, None);
 }
 
 #[test]

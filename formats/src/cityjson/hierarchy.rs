@@ -91,7 +91,8 @@ mod tests {
     use super::*;
 
     fn families(document: &str) -> Result<Vec<String>, (usize, Problem)> {
-        let members: super::super::json::Members<'_> = serde_json::from_str(document).unwrap();
+        let raw = serde_json::from_str(document).unwrap();
+        let members = super::super::json::Members::of("objects", raw).unwrap();
         let objects: Vec<_> = members
             .into_vec()
             .into_iter()

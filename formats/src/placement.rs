@@ -41,8 +41,17 @@ impl Placement {
 
     /// Whether it turns shapes inside out, so that rings have to be reversed.
     pub fn mirrors(&self) -> bool {
+        self.determinant() < 0.0
+    }
+
+    /// Whether it leaves no volume, so that rings may fall together.
+    pub fn flattens(&self) -> bool {
+        self.determinant() == 0.0
+    }
+
+    fn determinant(&self) -> f64 {
         let [[a, b, c, _], [d, e, f, _], [g, h, i, _]] = self.rows;
-        a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0.0
+        a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
     }
 
     /// A surface, placed; still seen anticlockwise from outside.

@@ -2,12 +2,11 @@
 
 mod common;
 
-use common::{BOX_SHELL, TRANSFORM, building, document, object};
-use formats::{SceneDescription, read_city_json};
-use serde_json::Value;
+use common::{BOX_SHELL, TRANSFORM, building, document, object, read_all};
+use formats::{Part, SceneDescription};
 
 fn read(text: &str) -> SceneDescription {
-    read_city_json("test.city.json", text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
+    read_all("test.city.json", text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Surfaces of the only feature's only geometry, as numbers of vertices of each ring.
@@ -17,7 +16,7 @@ fn ring_lengths(text: &str) -> Vec<Vec<usize>> {
         (scene.features.len(), scene.features[0].geometries.len()),
         (1, 1)
     );
-    let surfaces = &scene.features[0].geometries[0].surfaces;
+    let surfaces = &scene.features[0].geometries[0].shape.surfaces;
     surfaces
         .iter()
         .map(|surface| surface.rings.iter().map(Vec::len).collect())
@@ -84,7 +83,7 @@ fn holes_follow_their_outer_ring_and_closing_vertices_go() {
 #[test]
 fn positions_are_scaled_and_moved_to_the_same_bits_wherever_used() {
     let scene = read(&document(&building("a")));
-    let surfaces = &scene.features[0].geometries[0].surfaces;
+    let surfaces = &scene.features[0].geometries[0].shape.surfaces;
     let expected = [
         2000.0 * 0.001 + 85000.0,
         3000.0 * 0.001 + 447000.0,
@@ -172,117 +171,37 @@ fn descendants_are_merged_into_their_root_with_the_part_named() {
     let parts: Vec<_> = feature
         .geometries
         .iter()
-        .map(|g| (g.part.as_str(), g.level_of_detail))
+        .map(|g| (g.part.as_deref(), g.level_of_detail))
         .collect();
-    assert_eq!(parts, [("one", 2.2), ("two", 2.2)]);
-    let source: Value = serde_json::from_str(&feature.source).unwrap();
-    let names: Vec<_> = source["CityObjects"].as_object().unwrap().keys().collect();
-    assert_eq!(names, ["root", "one", "two"]);
-    assert_eq!(
-        source["CityObjects"]["two"]["parents"],
-        serde_json::json!(["one"])
-    );
-    assert_eq!(source["vertices"].as_array().unwrap().len(), 8);
-}
-
-/// A tree of one triangle, placed by a matrix at vertex 6 of the box.
-fn tree_document(matrix: &str, appearance: &str) -> String {
-    let tree = format!(
-        r#""t":{{"type":"SolitaryVegetationObject","geometry":[{{"type":"GeometryInstance",
-        "template":1,"boundaries":[6],"transformationMatrix":{matrix}}}]}}"#
-    );
-    let mut text = document(&[building("b"), tree].join(","));
-    text.pop();
-    text + r#","geometry-templates":{"vertices-templates":[[9.5,0,0],[1.5,0,0],[0,2.5,0],[0,0,3.5]],
-        "templates":[{"type":"MultiPoint","lod":"0","boundaries":[0]},
-        {"type":"MultiSurface","lod":"3","boundaries":[[[1,2,3]]],
-        "material":{"m":{"value":2}}}]}"#
-        + appearance
-        + "}"
+    assert_eq!(parts, [(Some("one"), 2.2), (Some("two"), 2.2)]);
+    let part = |name: &str| Part {
+        name: name.to_owned(),
+        class: "BuildingPart".to_owned(),
+        attributes: serde_json::json!({"x": 1}),
+    };
+    assert_eq!(feature.parts, [part("one"), part("two")]);
 }
 
 #[test]
-fn templates_are_placed_by_matrix_and_anchor_in_metres() {
-    let scene = read(&tree_document("[2,0,0,10, 0,1,0,0, 0,0,1,0, 0,0,0,1]", ""));
-    let geometry = &scene.features[1].geometries[0];
-    assert_eq!(
-        (geometry.part.as_str(), geometry.level_of_detail),
-        ("t", 3.0)
-    );
-    let [x, y, z] = [85002.0, 447003.0, 2.5];
-    let expected = [
-        [x + 13.0, y, z],
-        [x + 10.0, y + 2.5, z],
-        [x + 10.0, y, z + 3.5],
+fn parts_have_geometry_or_attributes() {
+    let part = |id: &str, members: &str| {
+        format!(r#""{id}":{{"type":"BuildingInstallation","parents":["b"]{members}}}"#)
+    };
+    let square = r#","geometry":[{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2,3]]]}]"#;
+    let points = r#","geometry":[{"type":"MultiPoint","lod":"2","boundaries":[0]}]"#;
+    let objects = [
+        building("b"),
+        part("bare", ""),
+        part("points", points),
+        part("named", r#","attributes":{"name":"chimney"}"#),
+        part("square", square),
     ];
-    assert_eq!(geometry.surfaces[0].rings, [expected.to_vec()]);
-}
-
-#[test]
-fn mirrored_templates_keep_their_outside_outside() {
-    let scene = read(&tree_document("[1,0,0,0, 0,1,0,0, 0,0,-1,0, 0,0,0,1]", ""));
-    let ring = &scene.features[1].geometries[0].surfaces[0].rings[0];
-    assert_eq!(
-        ring[0],
-        [85002.0, 447003.0, 2.5 - 3.5],
-        "the last vertex comes first"
-    );
-}
-
-#[test]
-fn a_source_carries_only_the_template_and_material_it_uses() {
-    let appearance = r#","appearance":{"materials":[{"name":"a"},{"name":"b"},{"name":"c"}]}"#;
-    let identity = "[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]";
-    let scene = read(&tree_document(identity, appearance));
-    let source: Value = serde_json::from_str(&scene.features[1].source).unwrap();
-    let template = &source["geometry-templates"]["templates"][0];
-    assert_eq!(template["boundaries"], serde_json::json!([[[0, 1, 2]]]));
-    assert_eq!(template["material"]["m"]["value"], 0);
-    assert_eq!(
-        source["geometry-templates"]["vertices-templates"]
-            .as_array()
-            .unwrap()
-            .len(),
-        3
-    );
-    assert_eq!(
-        source["appearance"]["materials"],
-        serde_json::json!([{"name": "c"}])
-    );
-    assert_eq!(source["vertices"], serde_json::json!([[2000, 3000, 4000]]));
-    let again = read(&scene.features[1].source);
-    assert_eq!(again.features[0], scene.features[1]);
-}
-
-#[test]
-fn textures_are_renumbered_and_broken_materials_dropped() {
-    let textured = r#""a":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2",
-        "boundaries":[[[0,1,2]],[[4,5,6]]],"semantics":{"values":[0,null],"surfaces":[{"type":"RoofSurface"}]},
-        "texture":{"rgb":{"values":[[[1,3,2,1]],[[null]]]}},
-        "material":{"m":{"values":[1,2]}}}]}"#;
-    let mut text = document(textured);
-    text.pop();
-    text += r#","appearance":{"materials":[{"name":"a"},{"name":"b"}],"textures":[{"type":"PNG","image":"a"},{"type":"PNG","image":"b"}],
-        "vertices-texture":[[0.1,0],[0.2,0],[0.3,0],[0.4,0]],"default-theme-texture":"rgb"}}"#;
-    let source: Value = serde_json::from_str(&read(&text).features[0].source).unwrap();
-    let geometry = &source["CityObjects"]["a"]["geometry"][0];
-    assert_eq!(
-        geometry["texture"]["rgb"]["values"].to_string(),
-        "[[[0,0,1,2]],[[null]]]"
-    );
-    assert_eq!(geometry["semantics"]["surfaces"][0]["type"], "RoofSurface");
-    assert_eq!(geometry.get("material"), None, "material 2 of 2");
-    let appearance = &source["appearance"];
-    assert_eq!(appearance["materials"].to_string(), "[]");
-    assert_eq!(
-        appearance["textures"].to_string(),
-        r#"[{"type":"PNG","image":"b"}]"#
-    );
-    assert_eq!(
-        appearance["vertices-texture"].to_string(),
-        "[[0.4,0],[0.3,0],[0.2,0]]"
-    );
-    assert_eq!(appearance["default-theme-texture"], "rgb");
+    let scene = read(&document(&objects.join(",")));
+    let parts: Vec<_> = scene.features[0].parts.iter().collect();
+    let names: Vec<_> = parts.iter().map(|part| part.name.as_str()).collect();
+    assert_eq!(names, ["named", "square"]);
+    assert_eq!(parts[1].attributes, serde_json::json!({}));
+    assert_eq!(scene.features[0].geometries[0].part, None);
 }
 
 #[test]

@@ -2,86 +2,77 @@
 //! streets and what is skipped.
 
 use std::collections::HashSet;
-use std::sync::Arc;
+use std::hash::{BuildHasher, RandomState};
+use std::ops::ControlFlow;
 
-use super::geometry::read_geometry;
+use super::appearance::Appearance;
+use super::batches::Batches;
+use super::budget::Budget;
+use super::family::{Family, read_family};
+use super::geometry::Lists;
 use super::header::Header;
 use super::hierarchy::Hierarchy;
 use super::json::Members;
 use super::object::CityObject;
 use super::vertices::Vertices;
 use crate::error::{FormatError, Location, Problem, quote};
-use crate::limits::Budget;
-use crate::scene::{Feature, Geometry, SceneDescription, Shape, Skipped, Street, Surface};
+use crate::scene::{Feature, Geometry, Skipped, Street, Surface};
 
 /// A scene under way.
-#[derive(Debug)]
-pub(super) struct SceneBuilder<'b> {
+pub(super) struct Reader<'b> {
     header: &'b Header,
-    budget: Budget,
-    scene: SceneDescription,
-    /// Identifiers so far, since lines are read one by one.
-    ids: HashSet<String>,
+    budget: Budget<'b>,
+    batches: Batches<'b>,
+    names: Names,
 }
 
-/// Objects with what their geometries refer to.
-struct Objects<'a, 'b> {
-    objects: &'b [CityObject<'a>],
-    hierarchy: &'b Hierarchy,
-    vertices: &'b Vertices,
-}
-
-/// The surfaces of a root and its descendants.
-#[derive(Debug)]
-struct FamilyGeometry {
-    geometries: Vec<Geometry>,
-    /// Why there is no geometry, where there is none.
-    why_none: &'static str,
-}
-
-impl<'b> SceneBuilder<'b> {
+impl<'b> Reader<'b> {
     /// A scene without objects yet.
-    pub(super) fn new(header: &'b Header, budget: Budget) -> Self {
-        let scene = SceneDescription {
-            srid: header.srid,
-            title: header.title.clone(),
-            attribution: header.attribution.clone(),
-            ..SceneDescription::default()
-        };
+    pub(super) fn new(header: &'b Header, budget: Budget<'b>, mut batches: Batches<'b>) -> Self {
+        batches.batch.degenerate_rings += header.templates.degenerate_rings();
         Self {
             header,
             budget,
-            scene,
-            ids: HashSet::new(),
+            batches,
+            names: Names::default(),
         }
     }
 
-    /// The finished scene.
-    pub(super) fn finish(self) -> SceneDescription {
-        self.scene
+    /// Hands over what is left.
+    pub(super) fn finish(self) {
+        self.batches.finish();
     }
 
     /// Adds the objects of a document or of a line, which is at `place`.
-    pub(super) fn add<'a>(
+    pub(super) fn add(
         &mut self,
-        members: &Members<'a>,
+        members: &Members<'_>,
         place: &Location,
-    ) -> Result<(), FormatError> {
+    ) -> Result<ControlFlow<()>, FormatError> {
         let here = |problem| place.error(problem);
         let list = members.require("vertices", "vertices").map_err(here)?;
-        let vertices = Vertices::parse("vertex", list, self.header.transform).map_err(here)?;
-        self.budget.vertices(vertices.len()).map_err(here)?;
+        let limit = self.budget.limits.vertices;
+        let transform = self.header.transform;
+        let vertices = Vertices::parse("vertex", list, transform, limit).map_err(here)?;
         let objects = self.objects(members, place)?;
         let hierarchy = Hierarchy::of(&objects)
             .map_err(|(i, problem)| place.object(&objects[i].id).error(problem))?;
-        let excerpt = Objects {
-            objects: &objects,
-            hierarchy: &hierarchy,
+        let own = members.get("appearance").map(Appearance::parse);
+        let lists = Lists {
             vertices: &vertices,
+            appearance: own.as_ref().unwrap_or(&self.header.appearance),
         };
-        hierarchy
-            .roots()
-            .try_for_each(|root| self.add_root(root, &excerpt, place))
+        for root in hierarchy.roots() {
+            let family: Vec<_> = hierarchy
+                .family(root)
+                .iter()
+                .map(|i| &objects[*i])
+                .collect();
+            if self.add_root(&family, &lists, place)?.is_break() {
+                return Ok(ControlFlow::Break(()));
+            }
+        }
+        Ok(ControlFlow::Continue(()))
     }
 
     /// Takes the member `CityObjects` apart.
@@ -99,7 +90,7 @@ impl<'b> SceneBuilder<'b> {
         let mut objects = Vec::with_capacity(members.len());
         for (id, raw) in members {
             let at = |problem| place.object(&id).error(problem);
-            if !self.ids.insert(id.to_string()) {
+            if !self.names.insert(&id) {
                 return Err(at(Problem::Duplicate { name: quote(&id) }));
             }
             objects.push(CityObject::parse(id.clone(), raw).map_err(at)?);
@@ -107,105 +98,85 @@ impl<'b> SceneBuilder<'b> {
         Ok(objects)
     }
 
-    /// Adds one root with its descendants as what it is.
-    fn add_root<'a>(
+    /// Adds a root, the first of its family, as what it is.
+    fn add_root(
         &mut self,
-        root: usize,
-        excerpt: &Objects<'a, '_>,
+        family: &[&CityObject<'_>],
+        lists: &Lists<'_>,
         place: &Location,
-    ) -> Result<(), FormatError> {
-        let object = &excerpt.objects[root];
-        let (name, class) = (object.id.to_string(), object.class.to_string());
-        if object.is_terrain() {
-            self.scene.skipped.push(Skipped {
-                name,
-                class,
-                why: "terrain".to_owned(),
-            });
-            return Ok(());
+    ) -> Result<ControlFlow<()>, FormatError> {
+        let [root, ..] = family else {
+            return Ok(ControlFlow::Continue(()));
+        };
+        let (name, class) = (root.id.to_string(), root.class.to_string());
+        if root.is_terrain() {
+            return Ok(self.skip(name, class, "terrain"));
         }
-        let family = excerpt.hierarchy.family(root);
-        let FamilyGeometry {
-            geometries,
-            why_none,
-        } = self.geometries(&family, excerpt, place)?;
-        if geometries.is_empty() {
-            let why = if object.is_group() {
+        self.budget.start_feature();
+        let templates = &self.header.templates;
+        let read = read_family(family, templates, lists, &mut self.budget, place)?;
+        let mut bytes = self.budget.feature_bytes();
+        let batch = &mut self.batches.batch;
+        batch.degenerate_rings += read.losses.degenerate_rings;
+        if read.geometries.is_empty() {
+            let why = if root.is_group() {
                 "a group of other objects"
             } else {
-                why_none
+                read.why_none
             };
-            self.scene.skipped.push(Skipped {
-                name,
-                class,
-                why: why.to_owned(),
-            });
-        } else if object.is_street() {
+            return Ok(self.skip(name, class, why));
+        }
+        batch.changed.extend(read.losses.changes(&name, &class));
+        let Family {
+            attributes,
+            parts,
+            geometries,
+            ..
+        } = read;
+        if root.is_street() {
             let surfaces = finest_surfaces(geometries);
-            self.scene.streets.push(Street {
+            bytes += self.budget.placed_bytes();
+            batch.streets.push(Street {
                 name,
                 class,
                 surfaces,
             });
         } else {
-            let at = |problem| place.object(&name).error(problem);
-            let attributes = object.attributes().map_err(at)?;
-            self.scene.features.push(Feature {
+            batch.features.push(Feature {
                 name,
                 class,
                 attributes,
-                parts: Vec::new(),
+                parts,
                 geometries,
             });
         }
-        Ok(())
+        Ok(self.batches.grow(bytes))
     }
 
-    /// Reads all geometries of a root and its descendants.
-    fn geometries<'a>(
-        &mut self,
-        family: &[usize],
-        excerpt: &Objects<'a, '_>,
-        place: &Location,
-    ) -> Result<FamilyGeometry, FormatError> {
-        let mut all = FamilyGeometry {
-            geometries: Vec::new(),
-            why_none: "no geometry",
-        };
-        let root = &excerpt.objects[family[0]];
-        for object in family.iter().map(|i| &excerpt.objects[*i]) {
-            for (number, raw) in object.geometries.iter().enumerate() {
-                let read = Members::of("geometry", raw).and_then(|members| {
-                    let dropped = &mut self.scene.degenerate_rings;
-                    read_geometry(
-                        &members,
-                        self.header,
-                        excerpt.vertices,
-                        &mut self.budget,
-                        dropped,
-                    )
-                });
-                let at = |problem| place.object(&object.id).geometry(number).error(problem);
-                let read = read.map_err(at)?;
-                if read.is_surface {
-                    all.why_none = "no surface with three distinct vertices";
-                } else if all.why_none == "no geometry" {
-                    all.why_none = "only points or lines";
-                }
-                if !read.surfaces.is_empty() {
-                    all.geometries.push(Geometry {
-                        level_of_detail: read.level_of_detail,
-                        part: (object.id != root.id).then(|| object.id.to_string()),
-                        shape: Arc::new(Shape {
-                            surfaces: read.surfaces,
-                            ..Shape::default()
-                        }),
-                        placement: None,
-                    });
-                }
-            }
-        }
-        Ok(all)
+    fn skip(&mut self, name: String, class: String, why: &str) -> ControlFlow<()> {
+        let bytes = 100 + name.len() + class.len();
+        let why = why.to_owned();
+        self.batches
+            .batch
+            .skipped
+            .push(Skipped { name, class, why });
+        self.batches.grow(bytes)
+    }
+}
+
+/// The identifiers of a file so far, since lines are read one by one. What is kept of each is two
+/// keyed hashes: 128 bits that no file can make collide on purpose.
+#[derive(Default)]
+struct Names {
+    seen: HashSet<(u64, u64)>,
+    hashers: [RandomState; 2],
+}
+
+impl Names {
+    /// False if the identifier was there already.
+    fn insert(&mut self, id: &str) -> bool {
+        let [a, b] = &self.hashers;
+        self.seen.insert((a.hash_one(id), b.hash_one(id)))
     }
 }
 
@@ -218,7 +189,13 @@ fn finest_surfaces(geometries: Vec<Geometry>) -> Vec<Surface> {
         let finest = part
             .iter()
             .filter(|geometry| geometry.level_of_detail == finest);
-        surfaces.extend(finest.flat_map(|geometry| geometry.surfaces().into_owned()));
+        let bare = |surface: &Surface| Surface {
+            rings: surface.rings.clone(),
+            ..Surface::default()
+        };
+        for geometry in finest {
+            surfaces.extend(geometry.surfaces().iter().map(bare));
+        }
     }
     surfaces
 }

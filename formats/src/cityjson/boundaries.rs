@@ -1,14 +1,18 @@
 //! Boundaries: nested arrays of vertex indices, and the surfaces that they describe.
 
+use std::fmt;
+use std::ops::Range;
+
+use serde::de::{DeserializeSeed, Deserializer, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 
-use super::json::{invalid, parse, string};
+use super::json::{check_count, invalid, parse_with, string};
 use super::vertices::Vertices;
 use crate::error::Problem;
 use crate::scene::Surface;
 
-/// A surface as rings of vertex indices, each checked against the list that it points into.
-pub(super) type IndexSurface = Vec<Vec<u64>>;
+/// Most bytes of the boundaries of one geometry, or of the values that belong to its surfaces.
+pub(super) const MAX_BOUNDARY_BYTES: u64 = 32 << 20;
 
 /// The geometry types of the format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,104 +44,172 @@ impl GeometryType {
             _ => return Err(invalid("geometry type", raw, "a geometry type of cityjson")),
         })
     }
+
+    /// How often lists of indices are nested in further lists.
+    fn nesting(self) -> usize {
+        match self {
+            Self::MultiPoint | Self::Instance => 0,
+            Self::MultiLineString => 1,
+            Self::Surfaces => 2,
+            Self::Solid => 3,
+            Self::Solids => 4,
+        }
+    }
+
+    /// Whether it has surfaces at all, and no template's.
+    pub(super) fn has_surfaces(self) -> bool {
+        self.nesting() >= 2
+    }
 }
 
-/// Reads boundaries as surfaces, all shells of all solids in one list; points and lines have none.
-/// Every index is below `vertex_count`, and the nesting is that of the type.
-pub(super) fn index_surfaces(
-    kind: GeometryType,
-    raw: &RawValue,
-    vertex_count: usize,
-) -> Result<Vec<IndexSurface>, Problem> {
-    const WHAT: &str = "boundaries";
-    let surfaces: Vec<IndexSurface> = match kind {
-        GeometryType::MultiPoint | GeometryType::Instance => {
-            check_indices(&parse::<Vec<u64>>(WHAT, raw)?, vertex_count)?;
-            Vec::new()
+/// Boundaries in flat form: all indices in one list, and where the lists of each level end.
+#[derive(Debug, Default)]
+pub(super) struct Boundaries {
+    indices: Vec<u64>,
+    /// Ends of rings in the indices, of surfaces in the rings, of shells in the surfaces, of solids
+    /// in the shells; the outermost list of a type ends a list of its own level.
+    ends: [Vec<usize>; 5],
+}
+
+impl Boundaries {
+    /// Reads boundaries; every index is below `vertex_count`, and the nesting is that of the type.
+    pub(super) fn parse(
+        kind: GeometryType,
+        raw: &RawValue,
+        vertex_count: usize,
+    ) -> Result<Self, Problem> {
+        let bytes = raw.get().len() as u64;
+        check_count("bytes of boundaries", bytes, MAX_BOUNDARY_BYTES)?;
+        let mut boundaries = Self::default();
+        let nesting = kind.nesting();
+        let into = &mut boundaries;
+        parse_with("boundaries", raw, Nested { nesting, into })?;
+        let wrong = |index: &&u64| **index >= vertex_count as u64;
+        match boundaries.indices.iter().find(wrong) {
+            Some(&index) => Err(Problem::IndexOutOfRange {
+                what: "vertex index",
+                index,
+                count: vertex_count,
+            }),
+            None => Ok(boundaries),
         }
-        GeometryType::MultiLineString => {
-            for line in parse::<Vec<Vec<u64>>>(WHAT, raw)? {
-                check_indices(&line, vertex_count)?;
+    }
+
+    /// All indices.
+    pub(super) fn indices(&self) -> &[u64] {
+        &self.indices
+    }
+
+    /// Vertices and rings: what the surfaces cost.
+    pub(super) fn size(&self) -> usize {
+        self.indices.len() + self.ends[0].len() + self.ends[1].len()
+    }
+
+    /// Ranges of surfaces, one a shell.
+    pub(super) fn shells(&self) -> impl Iterator<Item = Range<usize>> {
+        ranges(&self.ends[2])
+    }
+
+    /// Ranges of shells, one a solid.
+    pub(super) fn solids(&self) -> impl Iterator<Item = Range<usize>> {
+        ranges(&self.ends[3])
+    }
+
+    /// Surfaces in metres, none where the outer ring is degenerate. Rings are cleaned; a degenerate
+    /// hole is dropped, a degenerate outer ring takes its surface with it.
+    pub(super) fn surfaces(
+        &self,
+        vertices: &Vertices,
+        degenerate_rings: &mut usize,
+    ) -> Vec<Option<Surface>> {
+        let mut surface = |index_rings: Range<usize>| {
+            let mut rings = Vec::with_capacity(index_rings.len());
+            for ring in index_rings {
+                let ring = self.ring(ring, vertices);
+                if ring.len() >= 3 {
+                    rings.push(ring);
+                    continue;
+                }
+                *degenerate_rings += 1;
+                if rings.is_empty() {
+                    break;
+                }
             }
-            Vec::new()
-        }
-        GeometryType::Surfaces => parse(WHAT, raw)?,
-        GeometryType::Solid => flatten(parse(WHAT, raw)?),
-        GeometryType::Solids => flatten(flatten(parse(WHAT, raw)?)),
-    };
-    for ring in surfaces.iter().flatten() {
-        check_indices(ring, vertex_count)?;
+            (!rings.is_empty()).then(|| Surface {
+                rings,
+                ..Surface::default()
+            })
+        };
+        ranges(&self.ends[1]).map(&mut surface).collect()
     }
-    Ok(surfaces)
-}
 
-fn flatten<T>(nested: Vec<Vec<T>>) -> Vec<T> {
-    nested.into_iter().flatten().collect()
-}
-
-fn check_indices(indices: &[u64], vertex_count: usize) -> Result<(), Problem> {
-    match indices.iter().find(|index| **index >= vertex_count as u64) {
-        Some(&index) => Err(Problem::IndexOutOfRange {
-            what: "vertex index",
-            index,
-            count: vertex_count,
-        }),
-        None => Ok(()),
-    }
-}
-
-/// Surfaces in metres from surfaces of indices into a list of vertices.
-pub(super) fn surfaces_at(
-    index_surfaces: &[IndexSurface],
-    vertices: &Vertices,
-    degenerate_rings: &mut usize,
-) -> Vec<Surface> {
-    let positions = |ring: &Vec<u64>| {
-        ring.iter()
+    /// A ring in metres, without positions that repeat their predecessor, the last one's being the
+    /// first.
+    fn ring(&self, number: usize, vertices: &Vertices) -> Vec<[f64; 3]> {
+        let ends = &self.ends[0];
+        let start = number.checked_sub(1).map_or(0, |before| ends[before]);
+        let indices = &self.indices[start..ends[number]];
+        let mut ring: Vec<_> = indices
+            .iter()
             .map(|i| vertices.position(*i as usize))
-            .collect()
-    };
-    surfaces_from(index_surfaces, positions, degenerate_rings)
+            .collect();
+        ring.dedup();
+        while ring.len() > 1 && ring.first() == ring.last() {
+            ring.pop();
+        }
+        ring
+    }
 }
 
-/// Surfaces from surfaces of indices and the way from a ring to its positions. Rings are cleaned;
-/// a degenerate hole is dropped, a degenerate outer ring takes its surface with it.
-pub(super) fn surfaces_from(
-    index_surfaces: &[IndexSurface],
-    positions: impl Fn(&Vec<u64>) -> Vec<[f64; 3]>,
-    degenerate_rings: &mut usize,
-) -> Vec<Surface> {
-    let mut surfaces = Vec::with_capacity(index_surfaces.len());
-    for index_surface in index_surfaces {
-        let mut rings = Vec::with_capacity(index_surface.len());
-        for (number, index_ring) in index_surface.iter().enumerate() {
-            let ring = clean(positions(index_ring));
-            if ring.len() >= 3 {
-                rings.push(ring);
-                continue;
+/// The ranges between ends, the first from zero on.
+fn ranges(ends: &[usize]) -> impl Iterator<Item = Range<usize>> {
+    let starts = std::iter::once(0).chain(ends.iter().copied());
+    starts.zip(ends).map(|(start, end)| start..*end)
+}
+
+/// Reads lists of indices that are nested so deeply.
+struct Nested<'b> {
+    nesting: usize,
+    into: &'b mut Boundaries,
+}
+
+impl<'de> DeserializeSeed<'de> for Nested<'_> {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        deserializer.deserialize_seq(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Nested<'_> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a sequence")
+    }
+
+    fn visit_seq<S: SeqAccess<'de>>(self, mut list: S) -> Result<(), S::Error> {
+        let Self { nesting, into } = self;
+        let Some(inner) = nesting.checked_sub(1) else {
+            while let Some(index) = list.next_element()? {
+                into.indices.push(index);
             }
-            *degenerate_rings += 1;
-            if number == 0 {
+            into.ends[0].push(into.indices.len());
+            return Ok(());
+        };
+        loop {
+            let nested = Nested {
+                nesting: inner,
+                into: &mut *into,
+            };
+            if list.next_element_seed(nested)?.is_none() {
                 break;
             }
         }
-        if !rings.is_empty() {
-            surfaces.push(Surface {
-                rings,
-                ..Surface::default()
-            });
-        }
+        let end = into.ends[inner].len();
+        into.ends[nesting].push(end);
+        Ok(())
     }
-    surfaces
-}
-
-/// Drops positions that repeat their predecessor, the last one's being the first.
-fn clean(mut ring: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
-    ring.dedup();
-    while ring.len() > 1 && ring.first() == ring.last() {
-        ring.pop();
-    }
-    ring
 }
 
 #[cfg(test)]
@@ -145,10 +217,17 @@ mod tests {
     use super::super::vertices::Transform;
     use super::*;
 
-    fn read(kind: &str, boundaries: &str) -> Result<Vec<IndexSurface>, String> {
+    /// The rings of each surface.
+    type Rings = Vec<Vec<Vec<u64>>>;
+
+    fn read(kind: &str, boundaries: &str) -> Result<Rings, String> {
         let kind = GeometryType::parse(serde_json::from_str(kind).unwrap()).unwrap();
         let raw = serde_json::from_str(boundaries).unwrap();
-        index_surfaces(kind, raw, 8).map_err(|problem| problem.to_string())
+        let read = Boundaries::parse(kind, raw, 8).map_err(|problem| problem.to_string())?;
+        let rings: Vec<_> = ranges(&read.ends[0])
+            .map(|r| read.indices[r].to_vec())
+            .collect();
+        Ok(ranges(&read.ends[1]).map(|r| rings[r].to_vec()).collect())
     }
 
     #[test]
@@ -156,7 +235,11 @@ mod tests {
         let (a, b) = (vec![vec![0, 1, 2]], vec![vec![3, 4, 5], vec![5, 6, 7]]);
         let both = Ok(vec![a, b]);
         assert_eq!(read("\"MultiPoint\"", "[0,7]"), Ok(vec![]));
-        assert_eq!(read("\"MultiLineString\"", "[[0,7],[1,2]]"), Ok(vec![]));
+        assert_eq!(
+            read("\"MultiLineString\"", "[[0,7],[1,2]]"),
+            Ok(vec![vec![vec![0, 7], vec![1, 2]]]),
+            "lines stand where the rings of one surface would"
+        );
         for kind in ["\"MultiSurface\"", "\"CompositeSurface\""] {
             assert_eq!(read(kind, "[[[0,1,2]],[[3,4,5],[5,6,7]]]"), both);
         }
@@ -209,13 +292,14 @@ mod tests {
     #[test]
     fn degenerate_rings_are_dropped_and_counted() {
         let list = serde_json::from_str("[[0,0,0],[9,0,0],[9,9,0],[0,9,0],[9,0,0]]").unwrap();
-        let vertices = Vertices::parse("vertex", list, Transform::IDENTITY).unwrap();
+        let vertices = Vertices::parse("vertex", list, Transform::IDENTITY, 9).unwrap();
         let rings = |surface: &[&[u64]]| {
-            let surface = surface.iter().map(|ring| ring.to_vec()).collect();
+            let text = serde_json::value::to_raw_value(&[surface]).unwrap();
+            let read = Boundaries::parse(GeometryType::Surfaces, &text, 5).unwrap();
             let mut dropped = 0;
-            let surfaces = surfaces_at(&[surface], &vertices, &mut dropped);
-            let lengths = surfaces.iter().flat_map(|s| s.rings.iter().map(Vec::len));
-            (lengths.collect::<Vec<_>>(), dropped)
+            let surfaces = read.surfaces(&vertices, &mut dropped);
+            let rings = surfaces.iter().flatten().flat_map(|s| &s.rings);
+            (rings.map(Vec::len).collect::<Vec<_>>(), dropped)
         };
         assert_eq!(rings(&[&[0, 1, 4, 2, 3, 3, 0, 0]]), (vec![4], 0));
         assert_eq!(rings(&[&[0, 1]]), (vec![], 1));

@@ -2,29 +2,34 @@
 
 use serde_json::value::RawValue;
 
+use super::appearance::Appearance;
+use super::budget::Budget;
 use super::json::{Members, invalid, string};
 use super::templates::Templates;
 use super::vertices::Transform;
 use crate::error::Problem;
-use crate::limits::Budget;
+use crate::scene::SceneDescription;
 
 /// The members of a document beside its objects and their vertices.
 #[derive(Debug)]
 pub(super) struct Header {
     pub(super) transform: Transform,
     pub(super) templates: Templates,
-    pub(super) srid: Option<i32>,
-    pub(super) title: Option<String>,
-    pub(super) attribution: Option<String>,
+    /// The appearance of the templates, and of all objects of a document.
+    pub(super) appearance: Appearance,
+    /// What every batch says of the file.
+    pub(super) description: SceneDescription,
 }
 
 impl Header {
     /// Reads the members of a whole document or of the first line of a sequence.
-    pub(super) fn parse(members: &Members<'_>, budget: &mut Budget) -> Result<Self, Problem> {
+    pub(super) fn parse(members: &Members<'_>, budget: &mut Budget<'_>) -> Result<Self, Problem> {
         let version = members.require("version", "version")?;
         check_version(version)?;
+        let appearance = members.get("appearance").map(Appearance::parse);
+        let appearance = appearance.unwrap_or_default();
         let templates = match members.get("geometry-templates") {
-            Some(raw) => Templates::parse(raw, budget)?,
+            Some(raw) => Templates::parse(raw, &appearance, budget)?,
             None => Templates::default(),
         };
         let metadata = match members.get("metadata") {
@@ -35,9 +40,13 @@ impl Header {
         Ok(Self {
             transform: Transform::parse(members.require("transform", "transform")?)?,
             templates,
-            srid: reference_system.map(srid).transpose()?.flatten(),
-            title: metadata.get("title").and_then(text),
-            attribution: attribution(&metadata),
+            appearance,
+            description: SceneDescription {
+                srid: reference_system.map(srid).transpose()?.flatten(),
+                title: metadata.get("title").and_then(text),
+                attribution: attribution(&metadata),
+                ..SceneDescription::default()
+            },
         })
     }
 }
@@ -129,8 +138,8 @@ mod tests {
     #[test]
     fn credit_goes_to_the_organization_or_the_contact() {
         let credit = |text: &str| {
-            let metadata: Members<'_> = serde_json::from_str(text).unwrap();
-            attribution(&metadata)
+            let raw = serde_json::from_str(text).unwrap();
+            attribution(&Members::of("metadata", raw).unwrap())
         };
         let both = r#"{"pointOfContact":{"contactName":"A","website":"https://a.example"}}"#;
         assert_eq!(credit(both).as_deref(), Some("A, https://a.example"));

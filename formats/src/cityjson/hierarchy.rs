@@ -73,16 +73,6 @@ impl Hierarchy {
         family
     }
 
-    /// The parent of an object.
-    pub(super) fn parent(&self, object: usize) -> Option<usize> {
-        self.parent[object]
-    }
-
-    /// The children of an object.
-    pub(super) fn children(&self, object: usize) -> &[usize] {
-        &self.children[object]
-    }
-
     /// An object that no root leads to: it has itself for an ancestor, or an ancestor that has.
     fn first_on_a_cycle(&self) -> Option<usize> {
         let mut reached = vec![false; self.parent.len()];
@@ -101,7 +91,8 @@ mod tests {
     use super::*;
 
     fn families(document: &str) -> Result<Vec<String>, (usize, Problem)> {
-        let members: super::super::json::Members<'_> = serde_json::from_str(document).unwrap();
+        let raw = serde_json::from_str(document).unwrap();
+        let members = super::super::json::Members::of("objects", raw).unwrap();
         let objects: Vec<_> = members
             .into_vec()
             .into_iter()

@@ -1,11 +1,15 @@
 //! JSON as raw text, taken apart one level at a time. Nothing below a member is parsed before
-//! somebody asks for it, so nesting costs no stack and the source can be written out unchanged.
+//! somebody asks for it, so nesting costs no stack, and lists are cut at a limit before they take
+//! more memory than their text.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
 use std::fmt;
+use std::marker::PhantomData;
 
-use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
+use serde::de::{
+    Deserialize, DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor,
+};
 use serde_json::value::RawValue;
 
 use crate::error::{Problem, quote, shorten};
@@ -13,6 +17,12 @@ use crate::limits::MAX_NESTING;
 
 /// Most members of an object that are compared pairwise for duplicates; above, they are hashed.
 const FEW_MEMBERS: usize = 16;
+
+/// Most members of an object: 40 bytes of memory each, for as little as six of text.
+const MAX_MEMBERS: u64 = 2_000_000;
+
+/// Most elements of a list of names or of raw values: up to 24 bytes each, for two of text.
+const MAX_ELEMENTS: u64 = 2_000_000;
 
 /// The members of a JSON object, in their order, each value as raw text.
 #[derive(Debug, Default)]
@@ -24,7 +34,8 @@ impl<'a> Members<'a> {
         if !raw.get().starts_with('{') {
             return Err(invalid(what, raw, "an object"));
         }
-        let members: Self = parse(what, raw)?;
+        let (members, count) = parse_with(what, raw, FirstMembers)?;
+        check_count("members of an object", count, MAX_MEMBERS)?;
         members.refuse_duplicates()?;
         Ok(members)
     }
@@ -35,16 +46,16 @@ impl<'a> Members<'a> {
         (value.get() != "null").then_some(*value)
     }
 
+    /// The first member's value.
+    pub(super) fn first(&self) -> Option<&'a RawValue> {
+        self.0.first().map(|(_, value)| *value)
+    }
+
     /// A member's value that has to be there; `what` names it in the error.
     pub(super) fn require(&self, name: &str, what: &str) -> Result<&'a RawValue, Problem> {
         self.get(name).ok_or_else(|| Problem::Missing {
             what: what.to_owned(),
         })
-    }
-
-    /// All names and values in their order.
-    pub(super) fn iter(&self) -> impl Iterator<Item = (&str, &'a RawValue)> {
-        self.0.iter().map(|(key, value)| (key.as_ref(), *value))
     }
 
     /// All names and values, given away.
@@ -53,7 +64,7 @@ impl<'a> Members<'a> {
     }
 
     /// Refuses two members of one name: readers disagree on which of them counts.
-    pub(super) fn refuse_duplicates(&self) -> Result<(), Problem> {
+    fn refuse_duplicates(&self) -> Result<(), Problem> {
         let duplicate = if self.0.len() <= FEW_MEMBERS {
             let is_twice = |i: &usize| self.0[..*i].iter().any(|(key, _)| *key == self.0[*i].0);
             (1..self.0.len()).find(is_twice)
@@ -72,27 +83,71 @@ impl<'a> Members<'a> {
     }
 }
 
-impl<'de: 'a, 'a> Deserialize<'de> for Members<'a> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_map(MembersVisitor(std::marker::PhantomData))
+/// Reads an object and keeps as many members as are allowed; gives the number of all.
+struct FirstMembers;
+
+impl<'de> DeserializeSeed<'de> for FirstMembers {
+    type Value = (Members<'de>, u64);
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Self::Value, D::Error> {
+        deserializer.deserialize_map(self)
     }
 }
 
-struct MembersVisitor<'a>(std::marker::PhantomData<&'a ()>);
-
-impl<'de: 'a, 'a> Visitor<'de> for MembersVisitor<'a> {
-    type Value = Members<'a>;
+impl<'de> Visitor<'de> for FirstMembers {
+    type Value = (Members<'de>, u64);
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("an object")
     }
 
     fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Self::Value, M::Error> {
-        let mut members = Vec::new();
-        while let Some((Text(key), value)) = map.next_entry::<Text<'de>, &'de RawValue>()? {
-            members.push((key, value));
+        let (mut members, mut count) = (Vec::new(), 0);
+        while let Some(Text(key)) = map.next_key()? {
+            match count < MAX_MEMBERS {
+                true => members.push((key, map.next_value()?)),
+                false => drop(map.next_value::<IgnoredAny>()?),
+            }
+            count += 1;
         }
-        Ok(Members(members))
+        Ok((Members(members), count))
+    }
+}
+
+/// Reads an array and keeps so many elements; gives the number of all.
+struct FirstElements<T> {
+    limit: u64,
+    element: PhantomData<T>,
+}
+
+impl<'de, T: Deserialize<'de>> DeserializeSeed<'de> for FirstElements<T> {
+    type Value = (Vec<T>, u64);
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Self::Value, D::Error> {
+        deserializer.deserialize_seq(self)
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for FirstElements<T> {
+    type Value = (Vec<T>, u64);
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an array")
+    }
+
+    fn visit_seq<S: SeqAccess<'de>>(self, mut seq: S) -> Result<Self::Value, S::Error> {
+        let (mut elements, mut count) = (Vec::new(), 0);
+        while count < self.limit {
+            match seq.next_element()? {
+                Some(element) => elements.push(element),
+                None => return Ok((elements, count)),
+            }
+            count += 1;
+        }
+        while seq.next_element::<IgnoredAny>()?.is_some() {
+            count += 1;
+        }
+        Ok((elements, count))
     }
 }
 
@@ -103,7 +158,18 @@ struct Text<'a>(#[serde(borrow)] Cow<'a, str>);
 /// A raw value as a Rust value; the error says what it was and not where, since positions inside a
 /// raw value mean nothing to a reader of the file.
 pub(super) fn parse<'a, T: Deserialize<'a>>(what: &str, raw: &'a RawValue) -> Result<T, Problem> {
-    serde_json::from_str(raw.get()).map_err(|error| {
+    parse_with(what, raw, PhantomData)
+}
+
+/// The same, by a seed.
+pub(super) fn parse_with<'a, S: DeserializeSeed<'a>>(
+    what: &str,
+    raw: &'a RawValue,
+    seed: S,
+) -> Result<S::Value, Problem> {
+    // A raw value is one value, so nothing can stand after it.
+    let mut deserializer = serde_json::Deserializer::from_str(raw.get());
+    seed.deserialize(&mut deserializer).map_err(|error| {
         let position = format!(" at line {} column {}", error.line(), error.column());
         let message = error.to_string();
         let message = shorten(message.strip_suffix(&position).unwrap_or(&message));
@@ -112,6 +178,30 @@ pub(super) fn parse<'a, T: Deserialize<'a>>(what: &str, raw: &'a RawValue) -> Re
             message,
         }
     })
+}
+
+/// A raw value that has to be an array of so many elements at most.
+pub(super) fn list<'a, T: Deserialize<'a>>(
+    what: &str,
+    raw: &'a RawValue,
+    elements: &'static str,
+    limit: u64,
+) -> Result<Vec<T>, Problem> {
+    if !raw.get().starts_with('[') {
+        return Err(invalid(what, raw, "an array"));
+    }
+    let element = PhantomData;
+    let (list, count) = parse_with(what, raw, FirstElements { limit, element })?;
+    check_count(elements, count, limit)?;
+    Ok(list)
+}
+
+/// Refuses more than a limit.
+pub(super) fn check_count(what: &'static str, found: u64, limit: u64) -> Result<(), Problem> {
+    match found > limit {
+        true => Err(Problem::Limit { what, found, limit }),
+        false => Ok(()),
+    }
 }
 
 /// A raw value that has to be a string.
@@ -125,10 +215,7 @@ pub(super) fn string<'a>(what: &str, raw: &'a RawValue) -> Result<Cow<'a, str>, 
 
 /// A raw value that has to be an array, its elements raw.
 pub(super) fn array<'a>(what: &str, raw: &'a RawValue) -> Result<Vec<&'a RawValue>, Problem> {
-    if !raw.get().starts_with('[') {
-        return Err(invalid(what, raw, "an array"));
-    }
-    parse(what, raw)
+    list(what, raw, "elements of an array", MAX_ELEMENTS)
 }
 
 /// A raw value that has to be an array of strings.
@@ -196,10 +283,12 @@ mod tests {
         let members = Members::of("value", raw).unwrap();
         assert_eq!(members.get("b").unwrap().get(), "[1,  2]");
         assert!(members.get("a\n").is_none());
-        assert_eq!(
-            members.iter().map(|(name, _)| name).collect::<Vec<_>>(),
-            ["b", "a\n"]
-        );
+        let names: Vec<_> = members
+            .into_vec()
+            .into_iter()
+            .map(|(name, _)| name)
+            .collect();
+        assert_eq!(names, ["b", "a\n"]);
     }
 
     #[test]

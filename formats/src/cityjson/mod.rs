@@ -1,13 +1,19 @@
 //! CityJSON 1.1 and 2.0, and CityJSONSeq, after the specifications at cityjson.org (OGC 20-072).
 
+mod appearance;
+mod batches;
 mod block;
 mod boundaries;
+mod budget;
+mod family;
 mod geometry;
 mod header;
 mod hierarchy;
 mod json;
+mod lines;
 mod object;
 mod reader;
+mod semantics;
 mod templates;
 mod vertices;
 

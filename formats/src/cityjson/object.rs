@@ -3,8 +3,10 @@
 use std::borrow::Cow;
 
 use serde_json::value::RawValue;
+use serde_json::{Map, Value};
 
-use super::json::{Members, array, parse, string, strings};
+use super::budget::Budget;
+use super::json::{Members, array, check_count, parse, string, strings};
 use crate::error::Problem;
 use crate::limits::{MAX_ATTRIBUTE_BYTES, MAX_NAME_BYTES};
 
@@ -15,17 +17,20 @@ pub(super) struct CityObject<'a> {
     pub(super) class: Cow<'a, str>,
     pub(super) parents: Vec<Cow<'a, str>>,
     pub(super) children: Vec<Cow<'a, str>>,
-    pub(super) geometries: Vec<&'a RawValue>,
     pub(super) members: Members<'a>,
 }
 
 impl<'a> CityObject<'a> {
     /// Reads an object under its identifier.
     pub(super) fn parse(id: Cow<'a, str>, raw: &'a RawValue) -> Result<Self, Problem> {
-        check_length("bytes of an identifier", &id, MAX_NAME_BYTES)?;
+        check_count(
+            "bytes of an identifier",
+            id.len() as u64,
+            MAX_NAME_BYTES as u64,
+        )?;
         let members = Members::of("city object", raw)?;
         let class = string("type", members.require("type", "type")?)?;
-        check_length("bytes of a type", &class, MAX_NAME_BYTES)?;
+        check_count("bytes of a type", class.len() as u64, MAX_NAME_BYTES as u64)?;
         let list = |name| {
             members
                 .get(name)
@@ -36,11 +41,14 @@ impl<'a> CityObject<'a> {
             class,
             parents: list("parents")?,
             children: list("children")?,
-            geometries: members
-                .get("geometry")
-                .map_or(Ok(Vec::new()), |raw| array("geometry", raw))?,
             members,
         })
+    }
+
+    /// The geometries, still raw.
+    pub(super) fn geometries(&self) -> Result<Vec<&'a RawValue>, Problem> {
+        let raw = self.members.get("geometry");
+        raw.map_or(Ok(Vec::new()), |raw| array("geometry", raw))
     }
 
     /// Whether it only names other objects that stay objects of their own.
@@ -59,19 +67,13 @@ impl<'a> CityObject<'a> {
     }
 
     /// The attributes, an empty object where there are none.
-    pub(super) fn attributes(&self) -> Result<serde_json::Value, Problem> {
+    pub(super) fn attributes(&self, budget: &mut Budget<'_>) -> Result<Value, Problem> {
         let Some(raw) = self.members.get("attributes") else {
-            return Ok(serde_json::Value::Object(serde_json::Map::new()));
+            return Ok(Map::new().into());
         };
-        check_length("bytes of attributes", raw.get(), MAX_ATTRIBUTE_BYTES)?;
-        parse::<serde_json::Map<_, _>>("attributes", raw).map(Into::into)
-    }
-}
-
-fn check_length(what: &'static str, text: &str, limit: usize) -> Result<(), Problem> {
-    let (found, limit) = (text.len() as u64, limit as u64);
-    match found > limit {
-        true => Err(Problem::Limit { what, found, limit }),
-        false => Ok(()),
+        let bytes = raw.get().len() as u64;
+        check_count("bytes of attributes", bytes, MAX_ATTRIBUTE_BYTES as u64)?;
+        budget.feature_attributes(raw.get().len())?;
+        parse::<Map<_, _>>("attributes", raw).map(Into::into)
     }
 }

@@ -1,23 +1,25 @@
-//! From the bytes of a file to the description of its scene.
+//! From the bytes of a file to batches of its scene.
 
 use serde_json::value::RawValue;
 
-use super::block::SceneBuilder;
+use super::batches::Batches;
+use super::block::Reader;
+use super::budget::{Budget, Limits};
 use super::header::Header;
 use super::json::{Members, check_nesting, string};
+use super::lines::Lines;
 use crate::error::{FormatError, Location, Problem, quote, shorten};
 use crate::input::{Input, ReadOptions, Sink};
-use crate::limits::{Budget, Limits};
-use crate::scene::SceneDescription;
 
 /// Reads a CityJSON document of version 1.1 or 2.0, or a CityJSONSeq: a header on the first line,
 /// then a `CityJSONFeature` a line. Which of the two it is shows in the content; `name` is for
-/// errors only.
+/// errors only. Of a sequence no more than a line and a batch is in memory, a document is read
+/// whole.
 ///
 /// Each root object becomes one feature with its descendants merged in; the members of a
 /// `CityObjectGroup` are features of their own. `Road` and `TransportSquare` become streets,
 /// `TINRelief` and what has no surface is skipped. Positions are `vertex * scale + translate`, the
-/// same bits wherever a vertex is used; templates are placed.
+/// same bits wherever a vertex is used; the instances of a template share its shape.
 ///
 /// # Errors
 /// Anything that the format does not allow in what is read, and more than the reader's limits; the
@@ -25,86 +27,83 @@ use crate::scene::SceneDescription;
 pub(crate) fn read(
     name: &str,
     input: &mut dyn Input,
-    _options: &ReadOptions<'_>,
+    options: &ReadOptions<'_>,
     sink: &mut Sink<'_>,
 ) -> Result<(), FormatError> {
-    let mut bytes = Vec::new();
-    input
-        .read_to_end(&mut bytes)
-        .map_err(|error| Location::file(name).error(error.into()))?;
-    let scene = read_within(name, &bytes, &Limits::STANDARD)?;
-    let _ = sink(scene);
+    read_within(name, input, options, sink, &Limits::STANDARD)
+}
+
+fn read_within(
+    name: &str,
+    input: &mut dyn Input,
+    options: &ReadOptions<'_>,
+    sink: &mut Sink<'_>,
+    limits: &Limits,
+) -> Result<(), FormatError> {
+    let file = Location::file(name);
+    let at_file = |problem| file.error(problem);
+    let mut lines = Lines::new(input).map_err(at_file)?;
+    let first = lines.first(limits.document_bytes).map_err(at_file)?;
+    let mut document = first.ok_or_else(|| at_file(Problem::Empty))?;
+    if ends_within_document(&document) {
+        lines
+            .rest(&mut document, limits.document_bytes)
+            .map_err(at_file)?;
+    }
+    let first_line = lines.number();
+    let mut line = Vec::new();
+    let more = lines.next(&mut line, limits.line_bytes);
+    let mut more = more.map_err(|problem| file.line(Some(lines.number())).error(problem))?;
+
+    let place = file.line(more.then_some(first_line));
+    let here = |problem| place.error(problem);
+    let members = document_members(&document).map_err(here)?;
+    let mut budget = Budget::new(limits);
+    let header = Header::parse(&members, &mut budget).map_err(here)?;
+    let batches = Batches::new(header.description.clone(), options.batch_bytes, sink);
+    let mut reader = Reader::new(&header, budget, batches);
+    let mut flow = reader.add(&members, &place)?;
+    while more && flow.is_continue() {
+        let place = file.line(Some(lines.number()));
+        let members = feature_members(&line).map_err(|problem| place.error(problem))?;
+        flow = reader.add(&members, &place)?;
+        let next = lines.next(&mut line, limits.line_bytes);
+        more = next.map_err(|problem| file.line(Some(lines.number())).error(problem))?;
+    }
+    if flow.is_continue() {
+        reader.finish();
+    }
     Ok(())
 }
 
-fn read_within(name: &str, bytes: &[u8], limits: &Limits) -> Result<SceneDescription, FormatError> {
-    let file = Location::file(name);
-    let at_file = |problem| file.error(problem);
-    let mut budget = Budget::new(limits, bytes.len()).map_err(at_file)?;
-    let text = text(bytes).map_err(at_file)?;
-    let (members, rest) = first_document(text).map_err(at_file)?;
-    let blank_lines = newlines(&text[..text.len() - text.trim_start().len()]);
-    let first = file.line((!rest.trim().is_empty()).then_some(blank_lines + 1));
-    let at_first = |problem| first.error(problem);
-    check_type(&members, "CityJSON", "\"CityJSON\"").map_err(at_first)?;
-    members.refuse_duplicates().map_err(at_first)?;
-    let header = Header::parse(&members, &mut budget).map_err(at_first)?;
-    let mut builder = SceneBuilder::new(&header, budget);
-    builder.add(&members, &first)?;
-    let lines_before = newlines(&text[..text.len() - rest.len()]);
-    for (i, line) in rest
-        .split('\n')
-        .enumerate()
-        .filter(|(_, line)| !line.trim().is_empty())
-    {
-        let place = file.line(Some(lines_before + i + 1));
-        let members = feature_line(line).map_err(|problem| place.error(problem))?;
-        builder.add(&members, &place)?;
-    }
-    Ok(builder.finish())
+/// Whether a text is the beginning of a JSON value that goes on after it.
+fn ends_within_document(text: &[u8]) -> bool {
+    let value = serde_json::from_slice::<serde::de::IgnoredAny>(text);
+    value.is_err_and(|error| error.is_eof())
 }
 
-fn newlines(text: &str) -> usize {
-    text.bytes().filter(|byte| *byte == b'\n').count()
-}
-
-/// The bytes as text, without a byte order mark.
-fn text(bytes: &[u8]) -> Result<&str, Problem> {
-    let text = std::str::from_utf8(bytes).map_err(|error| Problem::NotUtf8 {
-        offset: error.valid_up_to(),
-    })?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    if text.trim().is_empty() {
-        return Err(Problem::Empty);
-    }
-    Ok(text)
-}
-
-/// The first JSON object of a text, and the text after it.
-fn first_document(text: &str) -> Result<(Members<'_>, &str), Problem> {
+/// The members of a whole document or of the first line of a sequence.
+fn document_members(bytes: &[u8]) -> Result<Members<'_>, Problem> {
+    let text = text(bytes)?;
     if !text.trim_start().starts_with('{') {
         return Err(Problem::DocumentType {
             found: format!("no json object but {}", quote(text.trim_start())),
             expected: "\"CityJSON\"",
         });
     }
-    let mut documents = serde_json::Deserializer::from_str(text).into_iter::<Members<'_>>();
-    match documents.next() {
-        Some(Ok(members)) => {
-            let (document, rest) = text.split_at(documents.byte_offset());
-            check_nesting(document)?;
-            Ok((members, rest))
-        }
-        Some(Err(error)) => Err(Problem::Syntax {
-            message: shorten(&error.to_string()),
-        }),
-        None => Err(Problem::Empty),
-    }
+    let raw = serde_json::from_str(text).map_err(|error| Problem::Syntax {
+        message: shorten(&error.to_string()),
+    })?;
+    check_nesting(text)?;
+    let members = Members::of("the document", raw)?;
+    check_type(&members, "CityJSON", "\"CityJSON\"")?;
+    Ok(members)
 }
 
 /// The members of one line of a sequence.
-fn feature_line(line: &str) -> Result<Members<'_>, Problem> {
-    let raw: &RawValue = serde_json::from_str(line).map_err(|error| {
+fn feature_members(bytes: &[u8]) -> Result<Members<'_>, Problem> {
+    let text = text(bytes)?;
+    let raw: &RawValue = serde_json::from_str(text).map_err(|error| {
         // The parser counts lines within this one, so only its column means something.
         let message = error.to_string();
         let words = message
@@ -114,7 +113,7 @@ fn feature_line(line: &str) -> Result<Members<'_>, Problem> {
             message: format!("{} at column {}", shorten(words), error.column()),
         }
     })?;
-    check_nesting(line)?;
+    check_nesting(text)?;
     let members = Members::of("the line", raw)?;
     check_type(&members, "CityJSONFeature", "\"CityJSONFeature\"")?;
     if let Some(transform) = members.get("transform") {
@@ -126,6 +125,13 @@ fn feature_line(line: &str) -> Result<Members<'_>, Problem> {
         });
     }
     Ok(members)
+}
+
+fn text(bytes: &[u8]) -> Result<&str, Problem> {
+    let not_utf8 = |error: std::str::Utf8Error| Problem::NotUtf8 {
+        offset: error.valid_up_to(),
+    };
+    std::str::from_utf8(bytes).map_err(not_utf8)
 }
 
 fn check_type(members: &Members<'_>, wanted: &str, expected: &'static str) -> Result<(), Problem> {
@@ -141,14 +147,18 @@ fn check_type(members: &Members<'_>, wanted: &str, expected: &'static str) -> Re
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use std::io::Cursor;
+    use std::ops::ControlFlow;
 
-    /// A square as a template with two instances, and one building beside it.
+    use super::*;
+    use crate::scene::SceneDescription;
+
+    /// A triangle as a template with two instances, and one building beside it.
     const DOCUMENT: &str = r#"{"type":"CityJSON","version":"2.0",
         "transform":{"scale":[1,1,1],"translate":[0,0,0]},
         "CityObjects":{
-            "a":{"type":"Building","geometry":[
-                {"type":"MultiSurface","lod":"1","boundaries":[[[0,1,2]]]}]},
+            "a":{"type":"Building","attributes":{"x":1},"geometry":[
+                {"type":"MultiSurface","lod":"1","boundaries":[[[0,1,2]],[[0,2,1]]]}]},
             "t":{"type":"SolitaryVegetationObject","geometry":[
                 {"type":"GeometryInstance","template":0,"boundaries":[0],
                     "transformationMatrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]},
@@ -158,79 +168,117 @@ mod tests {
         "geometry-templates":{"vertices-templates":[[0,0,0],[1,0,0],[0,1,0]],
             "templates":[{"type":"MultiSurface","lod":"1","boundaries":[[[0,1,2]]]}]}}"#;
 
-    type Pick = fn(&mut Limits) -> &mut u64;
-
-    fn message(change: impl Fn(&mut Limits)) -> String {
-        let mut limits = Limits::STANDARD;
-        change(&mut limits);
-        match read_within("a.json", DOCUMENT.as_bytes(), &limits) {
-            Ok(scene) => format!("{} features", scene.features.len()),
-            Err(error) => error.to_string(),
-        }
+    fn read_text(text: &[u8], limits: &Limits) -> Result<SceneDescription, String> {
+        let mut scene = SceneDescription::default();
+        let sink: &mut Sink<'_> = &mut |batch| {
+            scene.add(batch);
+            ControlFlow::Continue(())
+        };
+        let options = ReadOptions::default();
+        let read = read_within("a.json", &mut Cursor::new(text), &options, sink, limits);
+        read.map(|()| scene).map_err(|error| error.to_string())
     }
 
     #[test]
     fn each_limit_is_named_just_when_it_is_exceeded() {
-        let length = DOCUMENT.len() as u64;
-        let cases: [(Pick, u64, &str, &str); 5] = [
-            (|l| &mut l.input_bytes, length, "", "bytes of input"),
-            (|l| &mut l.objects, 2, "", "objects"),
-            (|l| &mut l.vertices, 6, "", "vertices"),
+        type Pick = fn(&mut Limits) -> &mut u64;
+        let (a, t) = (", object \"a\"", ", object \"t\", geometry 1");
+        let a_geometry = format!("{a}, geometry 0");
+        let cases: [(Pick, u64, &str, &str); 8] = [
             (
-                |l| &mut l.surfaces,
-                3,
-                ", object \"t\", geometry 1",
-                "surfaces",
+                |l| &mut l.document_bytes,
+                DOCUMENT.len() as u64,
+                "",
+                "bytes of a document",
+            ),
+            (|l| &mut l.objects, 2, "", "objects"),
+            (|l| &mut l.vertices, 3, "", "vertices"),
+            (
+                |l| &mut l.feature_vertices,
+                10,
+                &a_geometry,
+                "vertices and rings of one feature",
+            ),
+            (
+                |l| &mut l.feature_geometries,
+                2,
+                t,
+                "geometries of one feature",
+            ),
+            (
+                |l| &mut l.feature_attribute_bytes,
+                7,
+                a,
+                "bytes of attributes of one feature",
+            ),
+            (
+                |l| &mut l.feature_instance_vertices,
+                10,
+                t,
+                "vertices and rings of template instances in one feature",
             ),
             (
                 |l| &mut l.instance_vertices,
                 10,
-                ", object \"t\", geometry 1",
+                t,
                 "vertices and rings of template instances",
             ),
         ];
         for (limit, enough, place, what) in cases {
-            assert_eq!(
-                message(|limits| *limit(limits) = enough),
-                "2 features",
-                "{what}"
-            );
+            let read_up_to = |most| {
+                let mut limits = Limits::STANDARD;
+                *limit(&mut limits) = most;
+                read_text(DOCUMENT.as_bytes(), &limits).map(|scene| scene.features.len())
+            };
+            assert_eq!(read_up_to(enough), Ok(2), "{what}");
             let less = enough - 1;
             let expected = format!("a.json{place}: {enough} {what} exceed the limit of {less}");
-            assert_eq!(message(|limits| *limit(limits) = less), expected);
+            assert_eq!(read_up_to(less), Err(expected));
         }
     }
 
     #[test]
-    fn sources_are_limited_by_the_templates_they_repeat() {
-        let name = "a".repeat(1 << 15);
-        let template = format!("{{\"name\":\"{name}\",\"type\":\"MultiSurface\",");
-        let instance = r#""geometry":[{"type":"GeometryInstance","template":0,"boundaries":[0],
-            "transformationMatrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}]"#;
-        let trees: Vec<_> = (0..100)
-            .map(|i| format!("\"{i}\":{{\"type\":\"PlantCover\",{instance}}}"))
-            .collect();
-        let text = DOCUMENT
-            .replace(
-                "\"templates\":[{\"type\":\"MultiSurface\",",
-                &format!("\"templates\":[{template}"),
-            )
-            .replace("\"a\":", &format!("{},\"a\":", trees.join(",")));
+    fn long_lines_are_refused_before_they_are_held() {
+        let text = format!("{}\n\n{{{}", DOCUMENT.replace('\n', ""), " ".repeat(1000));
         let limits = Limits {
-            source_bytes: 0,
+            line_bytes: 100,
             ..Limits::STANDARD
         };
-        let error = read_within("a.json", text.as_bytes(), &limits)
-            .unwrap_err()
-            .to_string();
-        let limit = format!("bytes of sources exceed the limit of {}", 8 * text.len());
-        assert!(error.ends_with(&limit), "{error}");
+        let message = read_text(text.as_bytes(), &limits).unwrap_err();
         assert_eq!(
-            read_city_json("a.json", text.as_bytes())
-                .unwrap()
-                .features
-                .len(),
-            102
+            message,
+            "a.json, line 3: 101 bytes of a line exceed the limit of 100"
         );
+    }
+
+    #[test]
+    fn what_is_no_city_json_is_refused() {
+        let cases: [(&[u8], &str); 9] = [
+            (b"", ": the file is empty"),
+            (b"\xef\xbb\xbf \r\n\n", ": the file is empty"),
+            (
+                b"{\"type\":\"\xff\"}",
+                ": the text is not utf-8 from byte 9 on",
+            ),
+            (b"\xff\xfe{\0", ": the text is not utf-8 from byte 0 on"),
+            (
+                b"v 0 0 0\nf 1 1 1",
+                ", line 1: type is no json object but \"v 0 0 0\\n\", expected \"CityJSON\"",
+            ),
+            (
+                b"[1]",
+                ": type is no json object but \"[1]\", expected \"CityJSON\"",
+            ),
+            (b"{}", ": type is missing"),
+            (b"{\"type\":7}", ": type is 7, expected a string"),
+            (
+                b"{\"type\":\"FeatureCollection\"}",
+                ": type is \"FeatureCollection\", expected \"CityJSON\"",
+            ),
+        ];
+        for (bytes, problem) in cases {
+            let read = read_text(bytes, &Limits::STANDARD);
+            assert_eq!(read, Err(format!("a.json{problem}")));
+        }
     }
 }

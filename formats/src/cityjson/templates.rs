@@ -1,51 +1,90 @@
 //! Geometry templates: shapes stored once, in their own frame, and placed many times.
 
+use std::sync::Arc;
+
 use serde_json::value::RawValue;
 
-use super::boundaries::{GeometryType, IndexSurface, index_surfaces, surfaces_from};
-use super::geometry::level_of_detail;
-use super::json::{Members, array, invalid};
+use super::appearance::Appearance;
+use super::boundaries::{Boundaries, GeometryType};
+use super::budget::Budget;
+use super::geometry::{Lists, ReadShape, read_shape};
+use super::json::{Members, array, invalid, parse};
 use super::vertices::{Transform, Vertices, check_position, numbers};
 use crate::error::Problem;
-use crate::limits::Budget;
+use crate::placement::Placement;
 use crate::scene::Surface;
 
 /// The member `geometry-templates`.
 #[derive(Debug, Default)]
 pub(super) struct Templates {
     templates: Vec<Template>,
-    vertices: Vertices,
 }
 
 /// One template.
 #[derive(Debug)]
-pub(super) struct Template {
-    pub(super) level_of_detail: f64,
-    surfaces: Vec<IndexSurface>,
-    /// Vertices and rings: what placing it once costs.
-    size: usize,
+struct Template {
+    read: ReadShape,
+    /// Its two extreme corners: an affine map takes the box between them to its own extremes.
+    corners: [[f64; 3]; 2],
 }
 
 impl Templates {
     /// Reads the templates and their vertices; these are metres, no transform applies.
-    pub(super) fn parse(raw: &RawValue, budget: &mut Budget) -> Result<Self, Problem> {
+    pub(super) fn parse(
+        raw: &RawValue,
+        appearance: &Appearance,
+        budget: &mut Budget<'_>,
+    ) -> Result<Self, Problem> {
         let members = Members::of("geometry-templates", raw)?;
         let list = members.require("vertices-templates", "vertices-templates")?;
-        let vertices = Vertices::parse("template vertex", list, Transform::IDENTITY)?;
-        budget.vertices(vertices.len())?;
+        let limit = budget.limits.vertices;
+        let vertices = Vertices::parse("template vertex", list, Transform::IDENTITY, limit)?;
+        let lists = Lists {
+            vertices: &vertices,
+            appearance,
+        };
         let templates = array("templates", members.require("templates", "templates")?)?;
-        let templates = templates
-            .into_iter()
-            .map(|template| Template::parse(template, vertices.len()))
-            .collect::<Result<_, _>>()?;
+        let template = |raw| Template::parse(raw, &lists, budget);
         Ok(Self {
-            templates,
-            vertices,
+            templates: templates
+                .into_iter()
+                .map(template)
+                .collect::<Result<_, _>>()?,
         })
     }
 
+    /// Rings that were dropped from all templates, each counted once.
+    pub(super) fn degenerate_rings(&self) -> usize {
+        let losses = self.templates.iter().map(|template| &template.read.losses);
+        losses.map(|losses| losses.degenerate_rings).sum()
+    }
+
+    /// Reads an instance: its template, the shape shared, and where it goes.
+    pub(super) fn place(
+        &self,
+        members: &Members<'_>,
+        anchors: &Vertices,
+        budget: &mut Budget<'_>,
+    ) -> Result<(ReadShape, Placement), Problem> {
+        let index = parse("template", members.require("template", "template")?)?;
+        let template = self.get(index)?;
+        let boundaries = members.require("boundaries", "boundaries")?;
+        let anchor = anchors.position(anchor_index(boundaries, anchors.len())?);
+        let matrix = members.require("transformationMatrix", "transformationMatrix")?;
+        let placement = placement(matrix, anchor)?;
+        budget.instance_vertices(template.read.size)?;
+        budget.feature_geometry()?;
+        template.check_reach(index as usize, &placement)?;
+        let mut read = template.shared();
+        if placement.flattens() {
+            read.shape = Arc::default();
+            read.losses.flat_instances = true;
+        }
+        Ok((read, placement))
+    }
+
     /// The template that an instance selects.
-    pub(super) fn get(&self, index: u64) -> Result<&Template, Problem> {
+    fn get(&self, index: u64) -> Result<&Template, Problem> {
         let template = usize::try_from(index)
             .ok()
             .and_then(|i| self.templates.get(i));
@@ -55,97 +94,81 @@ impl Templates {
             count: self.templates.len(),
         })
     }
-
-    /// The vertices of all templates.
-    pub(super) fn vertices(&self) -> &Vertices {
-        &self.vertices
-    }
-
-    /// A template's surfaces, placed.
-    pub(super) fn place(
-        &self,
-        index: u64,
-        placement: &Placement,
-        budget: &mut Budget,
-        degenerate_rings: &mut usize,
-    ) -> Result<Vec<Surface>, Problem> {
-        let template = self.get(index)?;
-        budget.surfaces(template.surfaces.len())?;
-        budget.instance_vertices(template.size)?;
-        let place = |ring: &Vec<u64>| {
-            let mut ring: Vec<_> = ring
-                .iter()
-                .map(|i| placement.apply(self.vertices.position(*i as usize)))
-                .collect();
-            if placement.mirrors() {
-                ring.reverse();
-            }
-            ring
-        };
-        let surfaces = surfaces_from(&template.surfaces, place, degenerate_rings);
-        for position in surfaces.iter().flat_map(|surface| &surface.rings).flatten() {
-            check_position("instance of template", index as usize, *position)?;
-        }
-        Ok(surfaces)
-    }
 }
 
 impl Template {
-    fn parse(raw: &RawValue, vertex_count: usize) -> Result<Self, Problem> {
+    fn parse(raw: &RawValue, lists: &Lists<'_>, budget: &mut Budget<'_>) -> Result<Self, Problem> {
         let members = Members::of("template", raw)?;
         let kind = members.require("type", "geometry type")?;
         let kind = match GeometryType::parse(kind)? {
             GeometryType::Instance => {
-                return Err(invalid(
-                    "template type",
-                    kind,
-                    "a geometry that is not an instance",
-                ));
+                let expected = "a geometry that is not an instance";
+                return Err(invalid("template type", kind, expected));
             }
             other => other,
         };
-        let boundaries = members.require("boundaries", "boundaries")?;
-        let surfaces = index_surfaces(kind, boundaries, vertex_count)?;
-        let size = |surface: &IndexSurface| 1 + surface.iter().map(|r| 1 + r.len()).sum::<usize>();
-        Ok(Self {
-            level_of_detail: level_of_detail(&members)?,
-            size: surfaces.iter().map(size).sum(),
-            surfaces,
+        let read = read_shape(&members, kind, lists, budget)?;
+        let corners = corners(&read.shape.surfaces);
+        Ok(Self { read, corners })
+    }
+
+    /// What every instance has in common. Rings that were dropped are counted once, with the
+    /// template.
+    fn shared(&self) -> ReadShape {
+        let mut read = self.read.clone();
+        read.losses.degenerate_rings = 0;
+        read
+    }
+
+    /// Refuses to place it where coordinates are too large.
+    fn check_reach(&self, index: usize, placement: &Placement) -> Result<(), Problem> {
+        (0..8).try_for_each(|corner: usize| {
+            let axis = |axis: usize| self.corners[corner >> axis & 1][axis];
+            let position = placement.apply([axis(0), axis(1), axis(2)]);
+            check_position("instance of template", index, position)
         })
     }
 }
 
-/// Where a template goes: an affine map, then a move to the anchor.
-#[derive(Debug)]
-pub(super) struct Placement {
-    rows: [[f64; 4]; 3],
-    anchor: [f64; 3],
+/// The extreme corners of surfaces; the origin where there are none.
+fn corners(surfaces: &[Surface]) -> [[f64; 3]; 2] {
+    let mut positions = surfaces.iter().flat_map(|surface| &surface.rings).flatten();
+    let first = positions.next().copied().unwrap_or_default();
+    positions.fold([first; 2], |[low, high], position| {
+        let axes = [0, 1, 2];
+        [
+            axes.map(|i| low[i].min(position[i])),
+            axes.map(|i| high[i].max(position[i])),
+        ]
+    })
 }
 
-impl Placement {
-    /// Reads the member `transformationMatrix`, 4 x 4 row by row.
-    pub(super) fn parse(raw: &RawValue, anchor: [f64; 3]) -> Result<Self, Problem> {
-        const WHAT: &str = "transformationMatrix";
-        let m: [f64; 16] = numbers(WHAT, "16 numbers", raw)?;
-        if m[12..] != [0.0, 0.0, 0.0, 1.0] {
-            return Err(invalid(WHAT, raw, "a last row of 0, 0, 0, 1"));
-        }
-        let rows = std::array::from_fn(|i| std::array::from_fn(|j| m[4 * i + j]));
-        Ok(Self { rows, anchor })
+/// Reads the boundaries of an instance: one vertex.
+fn anchor_index(raw: &RawValue, vertex_count: usize) -> Result<usize, Problem> {
+    match Boundaries::parse(GeometryType::Instance, raw, vertex_count)?.indices() {
+        [index] => Ok(*index as usize),
+        _ => Err(invalid("boundaries", raw, "one vertex for the instance")),
     }
+}
 
-    fn apply(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|i| {
-            let [a, b, c, move_by] = self.rows[i];
-            (a * x + b * y + c * z + move_by) + self.anchor[i] + 0.0
-        })
+/// Reads the member `transformationMatrix`, 4 x 4 row by row, and moves on to the anchor.
+fn placement(raw: &RawValue, anchor: [f64; 3]) -> Result<Placement, Problem> {
+    const WHAT: &str = "transformationMatrix";
+    let m: [f64; 16] = numbers(WHAT, "16 numbers", raw)?;
+    if m[12..] != [0.0, 0.0, 0.0, 1.0] {
+        return Err(invalid(WHAT, raw, "a last row of 0, 0, 0, 1"));
     }
-
-    /// Whether the map turns shapes inside out, so that rings have to be reversed.
-    fn mirrors(&self) -> bool {
-        let [[a, b, c, _], [d, e, f, _], [g, h, i, _]] = self.rows;
-        a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0.0
-    }
+    let row = |i: usize| {
+        [
+            m[4 * i],
+            m[4 * i + 1],
+            m[4 * i + 2],
+            m[4 * i + 3] + anchor[i],
+        ]
+    };
+    Ok(Placement {
+        rows: [row(0), row(1), row(2)],
+    })
 }
 
 #[cfg(test)]
@@ -159,20 +182,13 @@ mod tests {
     #[test]
     fn placement_is_the_matrix_by_rows_then_the_anchor() {
         let matrix = raw("[0,-2,0,1, 2,0,0,0, 0,0,1,0.5, 0,0,0,1]");
-        let placement = Placement::parse(matrix, [100.0, 200.0, 300.0]).unwrap();
+        let placement = placement(matrix, [100.0, 200.0, 300.0]).unwrap();
         assert_eq!(placement.apply([1.0, 2.0, 3.0]), [97.0, 202.0, 303.5]);
-        assert!(!placement.mirrors());
-        let mirror = raw("[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]");
-        assert!(Placement::parse(mirror, [0.0; 3]).unwrap().mirrors());
     }
 
     #[test]
     fn placements_that_are_not_affine_are_refused() {
-        let message = |text| {
-            Placement::parse(raw(text), [0.0; 3])
-                .unwrap_err()
-                .to_string()
-        };
+        let message = |text| placement(raw(text), [0.0; 3]).unwrap_err().to_string();
         assert_eq!(
             message("[1,0]"),
             "transformationMatrix is [1,0], expected 16 numbers"

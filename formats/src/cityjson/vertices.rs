@@ -2,7 +2,7 @@
 
 use serde_json::value::RawValue;
 
-use super::json::{self, Members, invalid};
+use super::json::{Members, invalid, list};
 use crate::error::Problem;
 use crate::limits::MAX_COORDINATE;
 
@@ -56,9 +56,12 @@ impl Vertices {
         what: &'static str,
         raw: &RawValue,
         transform: Transform,
+        limit: u64,
     ) -> Result<Self, Problem> {
-        let stored: Vec<[f64; 3]> =
-            serde_json::from_str(raw.get()).map_err(|_| first_wrong_vertex(what, raw))?;
+        let stored = list(what, raw, "vertices", limit).map_err(|problem| match problem {
+            Problem::Malformed { .. } => first_wrong_vertex(what, raw, limit),
+            other => other,
+        })?;
         let vertices = Self { stored, transform };
         for index in 0..vertices.len() {
             check_position(what, index, vertices.position(index))?;
@@ -75,11 +78,6 @@ impl Vertices {
     pub(super) fn position(&self, index: usize) -> [f64; 3] {
         self.transform.apply(self.stored[index])
     }
-
-    /// A vertex as the file has it.
-    pub(super) fn stored(&self, index: usize) -> [f64; 3] {
-        self.stored[index]
-    }
 }
 
 /// A raw value that has to be an array of exactly N finite numbers.
@@ -88,9 +86,9 @@ pub(super) fn numbers<const N: usize>(
     expected: &'static str,
     raw: &RawValue,
 ) -> Result<[f64; N], Problem> {
-    let values: Vec<f64> =
-        serde_json::from_str(raw.get()).map_err(|_| invalid(what, raw, expected))?;
-    <[f64; N]>::try_from(values).map_err(|_| invalid(what, raw, expected))
+    let wrong = || invalid(what, raw, expected);
+    let values: Vec<f64> = list(what, raw, "numbers", N as u64).map_err(|_| wrong())?;
+    <[f64; N]>::try_from(values).map_err(|_| wrong())
 }
 
 /// Refuses a position that is not finite or lies absurdly far out.
@@ -113,8 +111,8 @@ pub(super) fn check_position(
 }
 
 /// Says which vertex of a list that could not be read is at fault.
-fn first_wrong_vertex(what: &'static str, raw: &RawValue) -> Problem {
-    let elements = match json::array(what, raw) {
+fn first_wrong_vertex(what: &'static str, raw: &RawValue, limit: u64) -> Problem {
+    let elements: Vec<&RawValue> = match list(what, raw, "vertices", limit) {
         Ok(elements) => elements,
         Err(problem) => return problem,
     };
@@ -140,7 +138,7 @@ mod tests {
     }
 
     fn message(list: &str) -> String {
-        Vertices::parse("vertex", raw(list), Transform::IDENTITY)
+        Vertices::parse("vertex", raw(list), Transform::IDENTITY, 9)
             .unwrap_err()
             .to_string()
     }
@@ -150,13 +148,13 @@ mod tests {
         let transform = Transform::parse(raw(
             r#"{"scale":[0.001,0.01,1],"translate":[85000,447000,-1]}"#,
         ));
-        let vertices = Vertices::parse("vertex", raw("[[1234,-5,1]]"), transform.unwrap()).unwrap();
+        let vertices =
+            Vertices::parse("vertex", raw("[[1234,-5,1]]"), transform.unwrap(), 9).unwrap();
         let expected = [1234.0 * 0.001 + 85000.0, -5.0 * 0.01 + 447000.0, 0.0];
         assert_eq!(
             vertices.position(0).map(f64::to_bits),
             expected.map(f64::to_bits)
         );
-        assert_eq!(vertices.stored(0), [1234.0, -5.0, 1.0]);
     }
 
     #[test]
@@ -176,6 +174,10 @@ mod tests {
         );
         assert_eq!(message("[null]"), format!("vertex 0 is null, {three}"));
         assert_eq!(message("7"), "vertex is 7, expected an array");
+        assert_eq!(
+            message(&format!("[[0,0,0]{}]", ",[0,0,0]".repeat(9))),
+            "10 vertices exceed the limit of 9"
+        );
         assert_eq!(
             message("[[0,1e12,0]]"),
             "vertex 0 is [0.0, 1000000000000.0, 0.0] in metres, expected coordinates within 1e9 of zero"

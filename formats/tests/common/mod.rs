@@ -5,6 +5,13 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
+use formats::{FormatError, ReadOptions, SceneDescription};
+
+/// Reads a file as it comes, in one piece.
+pub fn read_all(name: &str, bytes: &[u8]) -> Result<SceneDescription, FormatError> {
+    formats::read_bytes(name, bytes, &ReadOptions::default())
+}
+
 /// A file of the folder of real cities, if it is there.
 pub fn real_file(name: &str) -> Option<Vec<u8>> {
     let beside_workspace = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");

@@ -44,25 +44,29 @@ impl Solid {
         }
     }
 
-    /// A footprint raised from height `bottom` up to `top`, metres: one column.
+    /// Footprints raised from height `bottom` up to `top`, metres: a column each.
     ///
     /// # Errors
     /// [`PolygonDefect`] as [`extruded`].
     pub fn raised(
-        footprint: &Polygon<f64>,
+        footprints: &[Polygon<f64>],
         bottom: f64,
         top: f64,
     ) -> Result<Self, PolygonDefect> {
-        let solid = extruded(footprint, bottom, top)?;
+        let mut triangles = Vec::new();
+        let mut columns = Vec::new();
+        for footprint in footprints {
+            let solid = extruded(footprint, bottom, top)?;
+            triangles.extend(solid.mesh.corners());
+            columns.push(solid.column);
+        }
+        let mesh = TriangleMesh::from_triangles(triangles);
         let hides = Hides {
-            inner: inner_envelope(&solid.mesh).ok(),
-            columns: SolidColumns {
-                columns: vec![solid.column],
-                share: 1.0,
-            },
+            inner: inner_envelope(&mesh).ok(),
+            columns: SolidColumns { columns, share: 1.0 },
         };
         Ok(Self {
-            mesh: solid.mesh,
+            mesh,
             closed_at: None,
             hides: Ok(hides),
         })

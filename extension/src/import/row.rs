@@ -6,7 +6,7 @@ use pgrx::JsonB;
 use pgrx::spi::SpiHeapTupleData;
 
 /// A row that is to become a feature. Its columns: name text, class text, attributes jsonb, then
-/// footprint text[] (rings as core's polygon writes them), bottom and top in metres, or surfaces
+/// footprint text[] (rings as core's polygon writes them, a null between polygons), bottom and top in metres, or surfaces
 /// bytea (well-known binary).
 pub struct Source {
     /// Identifier, if it has one.
@@ -21,8 +21,8 @@ pub struct Source {
 
 /// What a feature is made from.
 pub enum Shape {
-    /// A footprint raised from one height to another, metres.
-    Raised(Polygon<f64>, f64, f64),
+    /// Footprints raised from one height to another, metres.
+    Raised(Vec<Polygon<f64>>, f64, f64),
     /// Surfaces in well-known binary.
     Surfaces(Vec<u8>),
     /// Nothing that can be used, with the reason.
@@ -49,17 +49,24 @@ impl Source {
 }
 
 fn raised(rings: Vec<Option<String>>, bottom: Option<f64>, top: Option<f64>) -> Shape {
-    let rings: Option<Vec<String>> = rings.into_iter().collect();
-    let footprint = rings.and_then(|rings| polygon::area(&rings));
-    let why = match (footprint, bottom, top) {
+    let why = match (footprints(&rings), bottom, top) {
         (None, _, _) => "no footprint".to_owned(),
         (_, None, _) | (_, _, None) => "no height".to_owned(),
-        (Some(footprint), Some(bottom), Some(top)) => {
+        (Some(footprints), Some(bottom), Some(top)) => {
             if bottom < top && bottom.is_finite() && top.is_finite() {
-                return Shape::Raised(footprint, bottom, top);
+                return Shape::Raised(footprints, bottom, top);
             }
             format!("heights {bottom} to {top} are out of order")
         }
     };
     Shape::Nothing(why)
+}
+
+/// The polygons of rings, those after a null another one's; `None` where there is none.
+fn footprints(rings: &[Option<String>]) -> Option<Vec<Polygon<f64>>> {
+    let polygons = rings.split(Option::is_none).filter(|rings| !rings.is_empty());
+    let polygons: Option<Vec<_>> = polygons
+        .map(|rings| polygon::area(&rings.iter().flatten().cloned().collect::<Vec<_>>()))
+        .collect();
+    polygons.filter(|polygons| !polygons.is_empty())
 }

@@ -20,8 +20,8 @@ impl Solid {
     /// Builds it, or says why it cannot be built.
     pub fn of(source: &Source) -> Result<Self, String> {
         let (solid, level_of_detail) = match &source.shape {
-            Shape::Raised(footprint, bottom, top) => {
-                let solid = engine::Solid::raised(footprint, *bottom, *top);
+            Shape::Raised(footprints, bottom, top) => {
+                let solid = engine::Solid::raised(footprints, *bottom, *top);
                 (solid.map_err(|defect| format!("footprint: {defect}"))?, 1.0)
             }
             Shape::Surfaces(binary) => {

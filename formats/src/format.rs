@@ -1,13 +1,16 @@
 //! [`Format`], and which of them a file is in.
 
 use std::fmt;
-use std::io::Cursor;
+use std::io::{self, BufRead, Cursor, Read, Seek, SeekFrom};
 use std::ops::ControlFlow;
 
-use crate::error::{FormatError, Location, Problem};
+use crate::error::{FormatError, Location};
 use crate::input::{Input, ReadOptions, Sink};
 use crate::scene::SceneDescription;
-use crate::{cityjson, geojson, gltf, obj, osm_pbf, ply, vrml};
+use crate::{cityjson, geojson, gltf, obj, osm_pbf, ply, recognition, vrml};
+
+/// How much of a file is looked at to recognise its format, bytes.
+const START_BYTES: u64 = 4096;
 
 /// A file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -32,11 +35,7 @@ pub enum Format {
 impl Format {
     /// The format of a file that begins with these bytes; a few hundred are enough.
     pub fn recognise(start: &[u8]) -> Option<Self> {
-        let text = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
-        match text.iter().find(|byte| !byte.is_ascii_whitespace()) {
-            Some(b'{') => Some(Self::CityJson),
-            _ => None,
-        }
+        recognition::recognise(start).ok()
     }
 }
 
@@ -64,11 +63,9 @@ pub fn read(
     options: &ReadOptions<'_>,
     sink: &mut Sink<'_>,
 ) -> Result<Format, FormatError> {
-    let start = input
-        .fill_buf()
-        .map_err(|error| Location::file(name).error(error.into()))?;
-    let unknown = || Location::file(name).error(Problem::UnknownFormat);
-    let format = Format::recognise(start).ok_or_else(unknown)?;
+    let place = Location::file(name);
+    let start = start_of(input).map_err(|error| place.error(error.into()))?;
+    let format = recognition::recognise(&start).map_err(|problem| place.error(problem))?;
     match format {
         Format::CityJson => cityjson::read(name, input, options, sink)?,
         Format::OsmPbf => osm_pbf::read(name, input, options, sink)?,
@@ -79,6 +76,15 @@ pub fn read(
         Format::GeoJson => geojson::read(name, input, options, sink)?,
     }
     Ok(format)
+}
+
+/// The first bytes of a file, which stays where it is.
+fn start_of(input: &mut dyn Input) -> io::Result<Vec<u8>> {
+    let position = input.stream_position()?;
+    let mut start = Vec::new();
+    (&mut *input).take(START_BYTES).read_to_end(&mut start)?;
+    input.seek(SeekFrom::Start(position))?;
+    Ok(start)
 }
 
 /// Reads all of a file that is in memory.

@@ -5,8 +5,10 @@
 
 #![forbid(unsafe_code)]
 
+mod batch;
 mod cityjson;
 mod error;
+mod extrusion;
 mod format;
 mod geojson;
 mod gltf;
@@ -16,6 +18,8 @@ mod obj;
 mod osm_pbf;
 mod placement;
 mod ply;
+mod projection;
+mod recognition;
 mod scene;
 mod vrml;
 mod wkb;

@@ -1,14 +1,78 @@
-//! OpenStreetMap PBF.
+//! OpenStreetMap PBF: buildings by the Simple 3D Buildings rules, walls, bridges and streets, all
+//! standing on a plane at height zero.
 
+mod blob;
+mod block;
+mod building;
+mod city;
+mod gather;
+mod kind;
+mod plan;
+mod rings;
+mod street;
+mod structure;
+mod tags;
+mod vertical;
+mod wire;
+
+use city::City;
+use gather::Elements;
+
+use crate::batch::Batch;
 use crate::error::{FormatError, Location, Problem};
 use crate::input::{Input, ReadOptions, Sink};
+use crate::limits::Limits;
+use crate::projection::Projection;
+use crate::scene::SceneDescription;
+
+/// Whom the licence asks to credit.
+const ATTRIBUTION: &str = "OpenStreetMap contributors, https://www.openstreetmap.org/copyright";
 
 /// Reads a file.
 pub(crate) fn read(
     name: &str,
-    _input: &mut dyn Input,
-    _options: &ReadOptions<'_>,
-    _sink: &mut Sink<'_>,
+    input: &mut dyn Input,
+    options: &ReadOptions<'_>,
+    sink: &mut Sink<'_>,
 ) -> Result<(), FormatError> {
-    Err(Location::file(name).error(Problem::UnknownFormat))
+    let place = Location::file(name);
+    read_problem(input, options, sink).map_err(|problem| place.error(problem))
+}
+
+fn read_problem(
+    input: &mut dyn Input,
+    options: &ReadOptions<'_>,
+    sink: &mut Sink<'_>,
+) -> Result<(), Problem> {
+    let mut elements = Elements::gather(input, &Limits::STANDARD)?;
+    let nodes = std::mem::take(&mut elements.nodes);
+    let projection = match centre(nodes.values()) {
+        Some(centre) => Some(Projection::to_srid_or_zone(options.srid, centre)?),
+        None => options.srid.map(Projection::to_srid).transpose()?,
+    };
+    let scene = SceneDescription {
+        srid: projection.as_ref().map(Projection::srid),
+        attribution: Some(ATTRIBUTION.to_owned()),
+        ..SceneDescription::default()
+    };
+    let project = |(id, position)| Some((id, projection.as_ref()?.project(position)?));
+    let nodes = nodes.into_iter().filter_map(project).collect();
+    let mut batch = Batch::new(scene, options, sink);
+    // The end of the reading asked for by the sink is no error.
+    if City::new(&elements, nodes)?.give(&mut batch).is_continue() {
+        let _ = batch.finish();
+    }
+    Ok(())
+}
+
+/// The middle of the box around positions.
+fn centre<'a>(positions: impl Iterator<Item = &'a [f64; 2]>) -> Option<[f64; 2]> {
+    let bounds = positions.fold(None, |bounds: Option<[[f64; 2]; 2]>, p| {
+        let [low, high] = bounds.unwrap_or([*p; 2]);
+        Some([
+            [low[0].min(p[0]), low[1].min(p[1])],
+            [high[0].max(p[0]), high[1].max(p[1])],
+        ])
+    });
+    bounds.map(|[low, high]| [(low[0] + high[0]) / 2.0, (low[1] + high[1]) / 2.0])
 }

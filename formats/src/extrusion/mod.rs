@@ -1,0 +1,28 @@
+//! Footprints with heights and roofs as closed surfaces, and lines with a width as areas.
+
+mod appearance;
+mod crossing;
+mod extruded;
+mod fan;
+mod fold;
+mod footprint;
+mod frame;
+mod length;
+mod roof;
+mod strip;
+
+pub(crate) use appearance::Appearance;
+pub(crate) use extruded::{Extruded, Top};
+pub(crate) use footprint::{Footprint, is_inside, line_string};
+pub(crate) use length::{MAX_HEIGHT, length};
+pub(crate) use roof::{Rise, Roof, RoofShape};
+pub(crate) use strip::{Ends, strips};
+
+/// Height of a storey where only storeys are counted, metres.
+pub(crate) const LEVEL_HEIGHT: f64 = 3.0;
+
+/// A position in plan, metres.
+pub(crate) type Plan = [f64; 2];
+
+/// An outer ring and its holes in space.
+type Rings = Vec<Vec<[f64; 3]>>;

@@ -33,6 +33,9 @@ impl Format {
     /// The format of a file that begins with these bytes; a few hundred are enough.
     pub fn recognise(start: &[u8]) -> Option<Self> {
         let text = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
+        if text.starts_with(b"#VRML ") {
+            return Some(Self::Vrml97);
+        }
         match text.iter().find(|byte| !byte.is_ascii_whitespace()) {
             Some(b'{') => Some(Self::CityJson),
             _ => None,

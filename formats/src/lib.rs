@@ -17,6 +17,7 @@ mod osm_pbf;
 mod placement;
 mod ply;
 mod scene;
+mod shape_builder;
 mod vrml;
 
 pub use error::{FormatError, Problem};

@@ -28,3 +28,4 @@ pub use scene::{
     Changed, Feature, Geometry, Material, Model, Part, SceneDescription, Semantic, Shape, Skipped,
     Street, Surface,
 };
+pub use vrml::write_vrml;

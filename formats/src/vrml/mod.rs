@@ -9,13 +9,17 @@
 //! its children. Routes, sensors, interpolators, scripts, lights and sounds change no shape and are
 //! passed over. `PROTO`, `EXTERNPROTO` and `Inline` are refused, since shapes would be missing.
 
+mod bridge;
+mod decomposition;
 mod description;
 mod extrusion;
+mod face_sets;
 mod faces;
 mod features;
 mod field_type;
 mod frame;
 mod graph;
+mod grid;
 mod identifier;
 mod lexer;
 mod material;
@@ -25,5 +29,7 @@ mod parser;
 mod reader;
 mod shapes;
 mod solids;
+mod writer;
 
 pub(crate) use reader::read;
+pub use writer::write_vrml;

@@ -21,6 +21,7 @@ mod ply;
 mod projection;
 mod recognition;
 mod scene;
+mod shape_builder;
 mod vrml;
 mod wkb;
 
@@ -33,3 +34,4 @@ pub use scene::{
     Street, Surface,
 };
 pub use wkb::read_wkb;
+pub use vrml::write_vrml;

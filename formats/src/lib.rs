@@ -21,6 +21,7 @@ mod vrml;
 
 pub use error::{FormatError, Problem};
 pub use format::{Format, read, read_bytes};
+pub use gltf::{GlbError, delivered_positions, write_glb};
 pub use input::{Input, ReadOptions, Sink};
 pub use placement::Placement;
 pub use scene::{

@@ -66,16 +66,30 @@ pub fn read(
     let place = Location::file(name);
     let start = start_of(input).map_err(|error| place.error(error.into()))?;
     let format = recognition::recognise(&start).map_err(|problem| place.error(problem))?;
-    match format {
-        Format::CityJson => cityjson::read(name, input, options, sink)?,
-        Format::OsmPbf => osm_pbf::read(name, input, options, sink)?,
-        Format::Vrml97 => vrml::read(name, input, options, sink)?,
-        Format::Gltf => gltf::read(name, input, options, sink)?,
-        Format::Obj => obj::read(name, input, options, sink)?,
-        Format::Ply => ply::read(name, input, options, sink)?,
-        Format::GeoJson => geojson::read(name, input, options, sink)?,
-    }
+    read_as(format, name, input, options, sink)?;
     Ok(format)
+}
+
+/// Reads a file of a known format, batch by batch. `name` is for errors only.
+///
+/// # Errors
+/// [`FormatError`] with what the format's reader finds wrong.
+pub fn read_as(
+    format: Format,
+    name: &str,
+    input: &mut dyn Input,
+    options: &ReadOptions<'_>,
+    sink: &mut Sink<'_>,
+) -> Result<(), FormatError> {
+    match format {
+        Format::CityJson => cityjson::read(name, input, options, sink),
+        Format::OsmPbf => osm_pbf::read(name, input, options, sink),
+        Format::Vrml97 => vrml::read(name, input, options, sink),
+        Format::Gltf => gltf::read(name, input, options, sink),
+        Format::Obj => obj::read(name, input, options, sink),
+        Format::Ply => ply::read(name, input, options, sink),
+        Format::GeoJson => geojson::read(name, input, options, sink),
+    }
 }
 
 /// The first bytes of a file, which stays where it is.

@@ -26,12 +26,13 @@ mod vrml;
 mod wkb;
 
 pub use error::{FormatError, Problem};
-pub use format::{Format, read, read_bytes};
+pub use format::{Format, read, read_as, read_bytes};
+pub use gltf::{GlbError, delivered_positions, write_glb};
 pub use input::{Input, ReadOptions, Sink};
 pub use placement::Placement;
 pub use scene::{
     Changed, Feature, Geometry, Material, Model, Part, SceneDescription, Semantic, Shape, Skipped,
     Street, Surface,
 };
-pub use wkb::read_wkb;
 pub use vrml::write_vrml;
+pub use wkb::read_wkb;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use engine::ColumnOptions;
-use formats::{Format, SceneDescription};
+use formats::{Feature, Format, SceneDescription};
 use postgres::Transaction;
 use rayon::prelude::*;
 
@@ -73,11 +73,13 @@ impl<'a> Importer<'a> {
         self.names
             .take(&mut self.transaction, self.scene, path, &batch.features)?;
         let options = &self.options;
-        let solids: Vec<Solid> = batch
-            .features
-            .par_iter()
-            .map(|feature| Solid::of(feature, options))
-            .collect();
+        let solid = |feature: &Feature| {
+            Solid::of(feature, options).map_err(|problem| {
+                let place = format!("{}, object {:?}", path.display(), feature.name);
+                Failure::Input(format!("{place}: {problem}"))
+            })
+        };
+        let solids: Vec<Solid> = batch.features.par_iter().map(solid).collect::<Result<_, _>>()?;
         let ids = rows::features(&mut self.transaction, self.scene, &batch.features, &solids)?;
         rows::shapes(&mut self.transaction, self.scene, &ids, &solids)?;
         rows::models(&mut self.transaction, self.scene, &ids, &solids)?;

@@ -1,7 +1,7 @@
 //! [`Level`], a feature's model at one level of detail.
 
 use engine::TriangleMesh;
-use formats::{Feature, Geometry, Placement, Surface};
+use formats::{Feature, Geometry, PackedShape, Placement, Problem, Surface};
 use glam::DVec3;
 
 /// A feature's model at one level of detail, as it is stored.
@@ -20,13 +20,13 @@ pub struct Level {
 pub enum StoredModel {
     /// Geometries of its own, packed.
     Own(Vec<u8>),
-    /// A shape that others may share, packed, and where it goes.
-    Instance(Vec<u8>, Placement),
+    /// A shape that others may share, and where it goes.
+    Instance(PackedShape, Placement),
 }
 
 impl Level {
     /// All levels of a feature, the best last. `best` is the mesh of the best one.
-    pub fn of(feature: &Feature, best: &TriangleMesh) -> Vec<Self> {
+    pub fn of(feature: &Feature, best: &TriangleMesh) -> Result<Vec<Self>, Problem> {
         let mut levels: Vec<f64> = feature
             .geometries
             .iter()
@@ -44,18 +44,18 @@ impl Level {
                 } else {
                     engine::deviation(best, &mesh(geometries.iter().copied()))
                 };
-                Self {
+                Ok(Self {
                     level_of_detail: level,
-                    model: StoredModel::of(feature, &geometries),
+                    model: StoredModel::of(feature, &geometries)?,
                     geometric_error,
-                }
+                })
             })
             .collect()
     }
 }
 
 impl StoredModel {
-    fn of(feature: &Feature, geometries: &[&Geometry]) -> Self {
+    fn of(feature: &Feature, geometries: &[&Geometry]) -> Result<Self, Problem> {
         if let [
             Geometry {
                 part: None,
@@ -65,10 +65,10 @@ impl StoredModel {
             },
         ] = geometries
         {
-            return Self::Instance(formats::pack_shape(shape), *placement);
+            return Ok(Self::Instance(formats::pack_shape(shape)?, *placement));
         }
         let geometries: Vec<Geometry> = geometries.iter().map(|&g| g.clone()).collect();
-        Self::Own(formats::pack(&geometries, &feature.parts))
+        Ok(Self::Own(formats::pack(&geometries, &feature.parts)?))
     }
 }
 

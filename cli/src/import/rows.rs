@@ -131,8 +131,8 @@ pub fn models(
     );
     let insert = transaction.prepare(&insert)?;
     for level in solids.iter().flat_map(|solid| &solid.levels) {
-        if let StoredModel::Instance(content, _) = &level.model {
-            transaction.execute(&insert, &[&formats::digest(content).as_slice(), content])?;
+        if let StoredModel::Instance(shape, _) = &level.model {
+            transaction.execute(&insert, &[&shape.digest.as_slice(), &shape.content])?;
         }
     }
     let columns = "feature, level_of_detail, format, content, shape, placement, geometric_error";
@@ -141,9 +141,9 @@ pub fn models(
         for level in &solid.levels {
             let (content, shape, placement) = match &level.model {
                 StoredModel::Own(content) => (Some(content), None, None),
-                StoredModel::Instance(content, placement) => (
+                StoredModel::Instance(shape, placement) => (
                     None,
-                    Some(formats::digest(content).to_vec()),
+                    Some(shape.digest.to_vec()),
                     Some(placement.rows.as_flattened().to_vec()),
                 ),
             };

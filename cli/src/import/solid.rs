@@ -1,7 +1,7 @@
 //! [`Solid`], what a feature of a file is made of.
 
 use engine::{Box3d, ColumnOptions, Hides, OuterPrism};
-use formats::Feature;
+use formats::{Feature, Problem};
 use glam::DVec3;
 
 use super::level::{Level, best_geometries, mesh};
@@ -23,21 +23,21 @@ pub struct Solid {
 
 impl Solid {
     /// Triangulates a feature and looks for what hides others in it.
-    pub fn of(feature: &Feature, options: &ColumnOptions) -> Self {
+    pub fn of(feature: &Feature, options: &ColumnOptions) -> Result<Self, Problem> {
         let best = best_geometries(feature);
         let delivered = mesh(best.iter().copied());
-        let levels = Level::of(feature, &delivered);
+        let levels = Level::of(feature, &delivered)?;
         let points = points(feature);
         let envelope = Box3d::around(points.iter().copied());
         let level = best.iter().map(|geometry| geometry.level_of_detail);
-        Self {
+        Ok(Self {
             // The reader gives no feature without a surface.
             envelope: envelope.unwrap_or(Box3d::new(DVec3::ZERO, DVec3::ZERO)),
             prism: OuterPrism::around(points),
             level_of_detail: level.fold(f64::NEG_INFINITY, f64::max),
             solid: engine::Solid::of(delivered, options),
             levels,
-        }
+        })
     }
 
     /// What hides others, if something does.
@@ -109,7 +109,7 @@ mod tests {
             parts: Vec::new(),
             geometries,
         };
-        Solid::of(&feature, &ColumnOptions::default())
+        Solid::of(&feature, &ColumnOptions::default()).unwrap()
     }
 
     /// A footprint, and two parts of which one is delivered twice.

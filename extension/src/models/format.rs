@@ -36,7 +36,13 @@ impl FileFormat {
     /// Models as one file.
     pub fn write(self, models: &[Model], srid: Option<i32>) -> Vec<u8> {
         match self {
-            Self::Glb => formats::write_glb(models, srid),
+            Self::Glb => formats::write_glb(models, srid).unwrap_or_else(|error| {
+                Refusal::new(
+                    PgSqlErrorCode::ERRCODE_PROGRAM_LIMIT_EXCEEDED,
+                    format!("could not write the models as glb: {error}"),
+                )
+                .raise()
+            }),
             Self::Vrml97 => formats::write_vrml(models, srid).into_bytes(),
             Self::CityJson => formats::write_city_json(models, srid),
             Self::CityJsonSeq => formats::write_city_json_seq(models, srid),

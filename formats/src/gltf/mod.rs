@@ -1,5 +1,18 @@
 //! glTF 2.0 or GLB.
 
+mod color;
+mod container;
+mod delivery;
+mod frame;
+mod materials;
+mod meshes;
+mod record;
+mod structure;
+mod writer;
+
+pub use delivery::delivered_positions;
+pub use writer::{GlbError, write_glb};
+
 use crate::error::{FormatError, Location, Problem};
 use crate::input::{Input, ReadOptions, Sink};
 

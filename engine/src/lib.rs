@@ -5,8 +5,11 @@
 
 mod box3d;
 mod city;
+mod columns;
 mod field_of_view;
 mod mesh;
+mod outer_prism;
+mod predicates;
 mod shadow_region;
 mod solid_column;
 mod umbra;
@@ -15,11 +18,13 @@ mod volumes;
 
 pub use box3d::Box3d;
 pub use city::{BoxCity, scattered_city};
+pub use columns::{ColumnOptions, SolidColumns, solid_columns};
 pub use field_of_view::{ViewCone, ViewSector, in_range};
 pub use mesh::{
     Closedness, GROUND_TOLERANCE, InnerEnvelope, MeshDefect, PolygonDefect, TriangleMesh,
     inner_envelope, triangulate,
 };
+pub use outer_prism::OuterPrism;
 pub use shadow_region::ShadowRegion;
 pub use solid_column::SolidColumn;
 pub use umbra::{OCCLUDER_MARGIN, Occluder, umbra_in_band};

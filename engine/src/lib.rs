@@ -5,8 +5,11 @@
 
 mod box3d;
 mod city;
+mod columns;
 mod field_of_view;
 mod mesh;
+mod outer_prism;
+mod predicates;
 mod shadow_region;
 mod solid;
 mod solid_column;
@@ -16,11 +19,13 @@ mod volumes;
 
 pub use box3d::Box3d;
 pub use city::{BoxCity, scattered_city};
+pub use columns::{ColumnOptions, SolidColumns, solid_columns};
 pub use field_of_view::{ViewCone, ViewSector, in_range};
 pub use mesh::{
     Closedness, Extrusion, GROUND_TOLERANCE, InnerEnvelope, MeshDefect, PolygonDefect,
     TriangleMesh, deviation, extruded, inner_envelope, triangulate,
 };
+pub use outer_prism::OuterPrism;
 pub use shadow_region::ShadowRegion;
 pub use solid::{Hides, Solid};
 pub use solid_column::SolidColumn;

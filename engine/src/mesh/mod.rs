@@ -17,6 +17,7 @@ mod winding_number;
 
 pub use deviation::deviation;
 pub use extrusion::{Extrusion, extruded};
+pub(crate) use inner_envelope::why_no_seed;
 pub use inner_envelope::{GROUND_TOLERANCE, InnerEnvelope, inner_envelope};
 pub use mesh_defect::MeshDefect;
 pub use triangle_mesh::{Closedness, TriangleMesh};

@@ -5,6 +5,7 @@
 
 mod box3d;
 mod city;
+mod convex_prism;
 mod field_of_view;
 mod mesh;
 mod shadow_region;
@@ -15,6 +16,7 @@ mod volumes;
 
 pub use box3d::Box3d;
 pub use city::{BoxCity, scattered_city};
+pub use convex_prism::ConvexPrism;
 pub use field_of_view::{ViewCone, ViewSector, in_range};
 pub use mesh::{
     Closedness, GROUND_TOLERANCE, InnerEnvelope, MeshDefect, PolygonDefect, TriangleMesh,
@@ -22,7 +24,7 @@ pub use mesh::{
 };
 pub use shadow_region::ShadowRegion;
 pub use solid_column::SolidColumn;
-pub use umbra::{OCCLUDER_MARGIN, Occluder, umbra_in_band};
+pub use umbra::{OCCLUDER_MARGIN, Occluder, ShadowCaster};
 pub use view_region::{
     LocalGround, Site, Street, ViewRegionOptions, covers_ground, footprint, open_space,
     streets_from_surfaces, without_footprints,

@@ -2,7 +2,7 @@
 
 use super::{failed, quoted};
 use crate::types::Box3d;
-use engine::{Occluder, OcclusionVolume};
+use engine::{ConvexPrism, Occluder, OcclusionVolume};
 use pgrx::Spi;
 use pgrx::datum::DatumWithOid;
 use std::collections::HashMap;
@@ -35,7 +35,7 @@ impl Snapshot {
         Self {
             occluder_of: occluders
                 .iter()
-                .map(|occluder| (occluder.feature, *occluder))
+                .map(|occluder| (occluder.feature, occluder.clone()))
                 .collect(),
             envelope_of: targets.iter().copied().collect(),
             occluders,
@@ -94,8 +94,7 @@ fn occluders(query: &str, arguments: &[DatumWithOid]) -> Vec<Occluder> {
         .filter_map(|(feature, bounds, grounded)| {
             Some(Occluder {
                 feature: feature?,
-                bounds: bounds?.0,
-                grounded: grounded?,
+                prism: ConvexPrism::from_box(&bounds?.0, grounded?)?,
             })
         })
         .collect()

@@ -1,8 +1,8 @@
 //! [`ConvexPrism`], the simplest solid that hides.
 
 use crate::Box3d;
+use crate::convex_polygon::is_strictly_convex;
 use glam::DVec2;
-use robust::{Coord, orient2d};
 
 /// A vertical prism over a strictly convex polygon.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,29 +86,6 @@ impl ConvexPrism {
             max: max.extend(self.top),
         }
     }
-}
-
-/// Twice the area of a triangle, positive when it turns anticlockwise; its sign is exact.
-pub(crate) fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
-    let [a, b, c] = [a, b, c].map(|p| Coord { x: p.x, y: p.y });
-    orient2d(a, b, c)
-}
-
-/// Whether a ring turns left at every vertex and goes around once, by exact signs.
-pub(crate) fn is_strictly_convex(ring: &[DVec2]) -> bool {
-    let [first, second, ref others @ ..] = ring[..] else {
-        return false;
-    };
-    let left_everywhere = (0..ring.len()).all(|i| {
-        let after = |steps: usize| ring[(i + steps) % ring.len()];
-        turn(after(0), after(1), after(2)) > 0.0
-    });
-    // Seen from the first vertex, the others go by in one direction and within half a turn.
-    let in_front = others.iter().all(|&v| turn(first, second, v) > 0.0);
-    let in_order = ring[1..]
-        .windows(2)
-        .all(|pair| turn(first, pair[0], pair[1]) > 0.0);
-    !others.is_empty() && left_everywhere && in_front && in_order
 }
 
 #[cfg(test)]

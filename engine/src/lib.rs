@@ -5,6 +5,8 @@
 
 mod box3d;
 mod city;
+mod convex_pieces;
+mod convex_polygon;
 mod convex_prism;
 mod field_of_view;
 mod mesh;
@@ -16,6 +18,7 @@ mod volumes;
 
 pub use box3d::Box3d;
 pub use city::{BoxCity, scattered_city};
+pub use convex_pieces::{ConvexPieceOptions, convex_pieces};
 pub use convex_prism::ConvexPrism;
 pub use field_of_view::{ViewCone, ViewSector, in_range};
 pub use mesh::{

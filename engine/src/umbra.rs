@@ -7,16 +7,13 @@
 //! tangents in plan. The edges at the top and bottom of a side give, at a given height, lines
 //! parallel to that side, so all of them together are one bound along the side's normal.
 
+use crate::convex_polygon::{Side, shrunk, sides};
 use crate::{Box3d, ConvexPrism, ShadowRegion};
 use glam::{DVec2, DVec3};
 
 /// Metres by which an occluder is shrunk on each side before it casts a shadow, so that touching
 /// and grazing never hide. It also covers all rounding here, which stays below ten micrometres.
 pub const OCCLUDER_MARGIN: f64 = 1e-3;
-
-/// Corners of a shrunk footprint nearer than this are one, metres: a shorter side would have no
-/// direction after rounding. Leaving a corner out of a convex footprint only makes it smaller.
-const SHORTEST_SIDE: f64 = 1e-6;
 
 /// A solid that hides.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,17 +34,6 @@ pub struct ShadowCaster {
     top: f64,
 }
 
-/// A side of a shrunk footprint.
-#[derive(Clone, Copy, Debug)]
-struct Side {
-    /// Where it begins, going anticlockwise.
-    corner: DVec2,
-    /// Unit vector outwards.
-    normal: DVec2,
-    /// Of its line `normal · p = offset`.
-    offset: f64,
-}
-
 impl ShadowCaster {
     /// `None` when nothing is left of the prism after shrinking.
     #[must_use]
@@ -56,7 +42,7 @@ impl ShadowCaster {
         let bottom = prism.bottom() - origin.z + OCCLUDER_MARGIN;
         let top = prism.top() - origin.z - OCCLUDER_MARGIN;
         let footprint = prism.footprint().iter().map(|&v| v - origin.truncate());
-        let sides = sides(&shrunk(footprint.collect()));
+        let sides = sides(&shrunk(footprint.collect(), OCCLUDER_MARGIN));
         (bottom < top && sides.len() >= 3).then_some(Self {
             origin,
             sides,
@@ -152,55 +138,6 @@ impl ShadowCaster {
             last.map(|i| half_plane((v - touch(i)).perp())),
         ]
     }
-}
-
-/// A convex polygon less all that is within [`OCCLUDER_MARGIN`] of its sides.
-fn shrunk(footprint: Vec<DVec2>) -> Vec<DVec2> {
-    sides(&footprint).iter().fold(footprint, |left, side| {
-        let depth = |p: DVec2| side.offset - OCCLUDER_MARGIN - side.normal.dot(p);
-        clipped(&left, depth)
-    })
-}
-
-/// The part of a convex polygon where `depth`, which is linear, is not negative.
-fn clipped(polygon: &[DVec2], depth: impl Fn(DVec2) -> f64) -> Vec<DVec2> {
-    let mut left = Vec::with_capacity(polygon.len() + 1);
-    for (i, &from) in polygon.iter().enumerate() {
-        let to = polygon[(i + 1) % polygon.len()];
-        let (a, b) = (depth(from), depth(to));
-        if a >= 0.0 {
-            left.push(from);
-        }
-        if (a >= 0.0) != (b >= 0.0) {
-            left.push(from + (to - from) * (a / (a - b)));
-        }
-    }
-    left
-}
-
-/// The sides of a convex polygon without those that are too short.
-fn sides(polygon: &[DVec2]) -> Vec<Side> {
-    let mut corners: Vec<DVec2> = Vec::with_capacity(polygon.len());
-    for &corner in polygon {
-        if corners
-            .iter()
-            .all(|other| other.distance(corner) >= SHORTEST_SIDE)
-        {
-            corners.push(corner);
-        }
-    }
-    (0..corners.len())
-        .map(|i| {
-            let corner = corners[i];
-            let along = corners[(i + 1) % corners.len()] - corner;
-            let normal = -along.perp().normalize_or_zero();
-            Side {
-                corner,
-                normal,
-                offset: normal.dot(corner),
-            }
-        })
-        .collect()
 }
 
 #[cfg(test)]

@@ -6,6 +6,9 @@
 mod box3d;
 mod city;
 mod columns;
+mod convex_pieces;
+mod convex_polygon;
+mod convex_prism;
 mod field_of_view;
 mod mesh;
 mod outer_prism;
@@ -20,6 +23,8 @@ mod volumes;
 pub use box3d::Box3d;
 pub use city::{BoxCity, scattered_city};
 pub use columns::{ColumnOptions, SolidColumns, solid_columns};
+pub use convex_pieces::{ConvexPieceOptions, convex_pieces};
+pub use convex_prism::ConvexPrism;
 pub use field_of_view::{ViewCone, ViewSector, in_range};
 pub use mesh::{
     Closedness, Extrusion, GROUND_TOLERANCE, InnerEnvelope, MeshDefect, PolygonDefect,
@@ -29,7 +34,7 @@ pub use outer_prism::OuterPrism;
 pub use shadow_region::ShadowRegion;
 pub use solid::{Hides, Solid};
 pub use solid_column::SolidColumn;
-pub use umbra::{OCCLUDER_MARGIN, Occluder, umbra_in_band};
+pub use umbra::{OCCLUDER_MARGIN, Occluder, ShadowCaster};
 pub use view_region::{
     LocalGround, Site, Street, ViewRegionOptions, covers_ground, footprint, open_space,
     streets_from_surfaces, without_footprints,

@@ -19,7 +19,7 @@ pub struct Solid {
 }
 
 /// What hides others.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Hides {
     /// In its simple form.
     pub inner: Option<InnerEnvelope>,
@@ -63,7 +63,11 @@ impl Solid {
         let mesh = TriangleMesh::from_triangles(triangles);
         let hides = Hides {
             inner: inner_envelope(&mesh).ok(),
-            columns: SolidColumns { columns, share: 1.0 },
+            columns: SolidColumns {
+                columns,
+                share: 1.0,
+                volume: mesh.signed_volume(),
+            },
         };
         Ok(Self {
             mesh,

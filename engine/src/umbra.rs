@@ -1,160 +1,143 @@
-//! [`umbra_in_band`]: from where one box hides another, exactly.
+//! [`ShadowCaster`]: from where one convex prism hides a box, exactly.
 //!
 //! For a convex occluder A and a point v, `shadow(v, A) = { v + t(a − v) : a ∈ A, t ≥ 1 }` is
 //! convex, and A hides all of the box B from p exactly when p is in the shadow of each corner of
-//! B (design: docs/how-it-works.md, "The umbra of one occluder"). The shadow of a box is bounded
-//! by the faces that v sees and by planes through v and silhouette edges. Silhouette edges run
-//! along an axis, so each such plane is a tangent line in the projection along that axis: in
-//! plan a line, and in the two vertical projections, at a given height, a bound on x or y.
+//! B (design: docs/how-it-works.md, "The umbra of one occluder"). The shadow of a prism is bounded
+//! by the faces that v sees and by planes through v and silhouette edges. Upright edges give
+//! tangents in plan. The edges at the top and bottom of a side give, at a given height, lines
+//! parallel to that side, so all of them together are one bound along the side's normal.
 
-use crate::{Box3d, ShadowRegion};
+use crate::convex_polygon::{Side, shrunk, sides};
+use crate::{Box3d, ConvexPrism, ShadowRegion};
 use glam::{DVec2, DVec3};
 
 /// Metres by which an occluder is shrunk on each side before it casts a shadow, so that touching
-/// and grazing never hide. It also covers all rounding here, which stays below a micrometre.
+/// and grazing never hide. It also covers all rounding here, which stays below ten micrometres.
 pub const OCCLUDER_MARGIN: f64 = 1e-3;
 
-/// A box that hides: the largest one known to be wholly solid inside a feature.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A solid that hides.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Occluder {
-    /// The feature it belongs to.
+    /// The feature that it is a part of.
     pub feature: i64,
-    /// The solid box, metres.
-    pub bounds: Box3d,
-    /// Whether the ground under the box is solid down to any depth.
-    pub grounded: bool,
+    /// A prism inside the feature's solid.
+    pub prism: ConvexPrism,
 }
 
-/// The plan region from all of which, at every height in `band` (metres, low and high), `occluder`
-/// hides all of `occludee`: a convex polygon kept as half-planes. `None` when it is known to be
-/// empty inside `window`.
-#[must_use]
-pub fn umbra_in_band(
-    occluder: &Occluder,
-    occludee: &Box3d,
-    band: [f64; 2],
-    window: [DVec2; 2],
-) -> Option<ShadowRegion> {
-    let mut solid = occluder.bounds.expanded(-OCCLUDER_MARGIN)?;
-    let origin = solid.center();
-    solid = Box3d {
-        min: solid.min - origin,
-        max: solid.max - origin,
-    };
-    if occluder.grounded {
-        solid.min.z = f64::NEG_INFINITY;
-    }
-    let mut region = ShadowRegion::new(origin.truncate(), window);
-    let band = band.map(|z| z - origin.z);
-    for corner in occludee.corners() {
-        bound_by_faces(&mut region, corner - origin, &solid, band)?;
-    }
-    for corner in occludee.corners() {
-        bound_by_profile(&mut region, 0, corner - origin, &solid, band)?;
-        bound_by_profile(&mut region, 1, corner - origin, &solid, band)?;
-    }
-    // The four corners at the foot stand for all eight in plan.
-    for corner in &occludee.corners()[..4] {
-        bound_in_plan(&mut region, (*corner - origin).truncate(), &solid);
-    }
-    region.is_possible().then_some(region)
+/// A prism made ready to cast shadows: shrunk by [`OCCLUDER_MARGIN`], endless downwards when it is
+/// grounded, and relative to its middle.
+#[derive(Clone, Debug)]
+pub struct ShadowCaster {
+    origin: DVec3,
+    sides: Vec<Side>,
+    bottom: f64,
+    top: f64,
 }
 
-/// Bounds the region by the faces of `solid` that the corner sees: the shadow is behind them.
-fn bound_by_faces(
-    region: &mut ShadowRegion,
-    corner: DVec3,
-    solid: &Box3d,
-    band: [f64; 2],
-) -> Option<()> {
-    if corner.z >= solid.max.z && band[1] > solid.max.z
-        || corner.z <= solid.min.z && band[0] < solid.min.z
-    {
-        return None;
+impl ShadowCaster {
+    /// `None` when nothing is left of the prism after shrinking.
+    #[must_use]
+    pub fn new(prism: &ConvexPrism) -> Option<Self> {
+        let origin = prism.envelope().center();
+        let bottom = prism.bottom() - origin.z + OCCLUDER_MARGIN;
+        let top = prism.top() - origin.z - OCCLUDER_MARGIN;
+        let footprint = prism.footprint().iter().map(|&v| v - origin.truncate());
+        let sides = sides(&shrunk(footprint.collect(), OCCLUDER_MARGIN));
+        (bottom < top && sides.len() >= 3).then_some(Self {
+            origin,
+            sides,
+            bottom: if prism.grounded() {
+                f64::NEG_INFINITY
+            } else {
+                bottom
+            },
+            top,
+        })
     }
-    for axis in 0..2 {
-        if corner[axis] >= solid.max[axis] {
-            region.bound_above(axis, solid.max[axis]);
+
+    /// The plan region from all of which, at every height in `band` (metres, low and high), the
+    /// prism hides all of `occludee`. `None` when it is empty inside `window`.
+    #[must_use]
+    pub fn umbra_in_band(
+        &self,
+        occludee: &Box3d,
+        band: [f64; 2],
+        window: [DVec2; 2],
+    ) -> Option<ShadowRegion> {
+        let occludee = Box3d {
+            min: occludee.min - self.origin,
+            max: occludee.max - self.origin,
+        };
+        let band = band.map(|z| z - self.origin.z);
+        let seen_from_above = occludee.max.z >= self.top;
+        let seen_from_below = occludee.min.z <= self.bottom;
+        if seen_from_above && band[1] > self.top || seen_from_below && band[0] < self.bottom {
+            return None;
         }
-        if corner[axis] <= solid.min[axis] {
-            region.bound_below(axis, solid.min[axis]);
-        }
-    }
-    region.is_possible().then_some(())
-}
-
-/// Bounds the region by the tangents of the projection onto (`axis`, z), at both ends of the band.
-fn bound_by_profile(
-    region: &mut ShadowRegion,
-    axis: usize,
-    corner: DVec3,
-    solid: &Box3d,
-    band: [f64; 2],
-) -> Option<()> {
-    let profile = |p: DVec3| DVec2::new(p[axis], p.z);
-    for (normal, offset) in tangents(profile(corner), profile(solid.min), profile(solid.max)) {
-        for height in band {
-            let rest = offset - normal.y * height;
-            if normal.x > 0.0 {
-                region.bound_above(axis, rest / normal.x);
-            } else if normal.x < 0.0 {
-                region.bound_below(axis, rest / normal.x);
-            } else if rest < 0.0 {
-                return None;
+        let mut region = ShadowRegion::new(self.origin.truncate(), window);
+        for side in &self.sides {
+            if let Some(limit) = self.limit(side, &occludee, band) {
+                region = region.bounded(side.normal, limit)?;
             }
         }
-    }
-    region.is_possible().then_some(())
-}
-
-/// Bounds the region by the tangents in plan.
-fn bound_in_plan(region: &mut ShadowRegion, corner: DVec2, solid: &Box3d) {
-    for (normal, offset) in tangents(corner, solid.min.truncate(), solid.max.truncate()) {
-        region.bound(normal, offset);
-    }
-}
-
-/// The half-planes `normal · p <= offset` through `v` that touch the rectangle and hold it: two
-/// for a point outside, none for a point inside. A tangent at a corner at infinity adds nothing
-/// to the faces and is left out.
-fn tangents(v: DVec2, min: DVec2, max: DVec2) -> impl Iterator<Item = (DVec2, f64)> {
-    // Per axis: the side of the rectangle nearest to v and the one across, when v is beyond it.
-    let beyond = |i: usize| {
-        if v[i] >= max[i] {
-            Some((max[i], min[i]))
-        } else if v[i] <= min[i] {
-            Some((min[i], max[i]))
-        } else {
-            None
+        // The four corners at the foot stand for all eight in plan.
+        for corner in &occludee.corners()[..4] {
+            for (normal, offset) in self.tangents(corner.truncate()).into_iter().flatten() {
+                region = region.bounded(normal, offset)?;
+            }
         }
-    };
-    let touched = match (beyond(0), beyond(1)) {
-        (None, None) => [None, None],
-        (Some((near, _)), None) => [min.y, max.y].map(|y| Some(DVec2::new(near, y))),
-        (None, Some((near, _))) => [min.x, max.x].map(|x| Some(DVec2::new(x, near))),
-        (Some((near_x, far_x)), Some((near_y, far_y))) => [
-            Some(DVec2::new(near_x, far_y)),
-            Some(DVec2::new(far_x, near_y)),
-        ],
-    };
-    // A finite point well inside, to tell the two sides apart.
-    let inside = DVec2::new(
-        (min.x + max.x) * 0.5,
-        max.y - ((max.y - min.y) * 0.5).min(1.0),
-    );
-    touched
-        .into_iter()
-        .flatten()
-        .filter(|touch| touch.is_finite())
-        .map(move |touch| {
-            let normal = (touch - v).perp();
-            let normal = if normal.dot(inside - touch) > 0.0 {
-                -normal
-            } else {
-                normal
-            };
-            (normal, normal.dot(v))
-        })
+        Some(region)
+    }
+
+    /// How far along the normal of `side` the shadow of the whole occludee goes at most, because
+    /// of the side's face and the edges at its top and bottom. Seen along the side, the occludee
+    /// is a rectangle; its four corners stand for all eight.
+    fn limit(&self, side: &Side, occludee: &Box3d, band: [f64; 2]) -> Option<f64> {
+        let middle = side.normal.dot(occludee.center().truncate());
+        let half = side.normal.abs().dot(occludee.size().truncate()) * 0.5;
+        let mut limit = f64::INFINITY;
+        for along in [middle - half, middle + half] {
+            let seen = along >= side.offset;
+            if seen {
+                limit = limit.min(side.offset);
+            }
+            for height in [occludee.min.z, occludee.max.z] {
+                for (edge, face_seen) in [
+                    (self.top, height >= self.top),
+                    (self.bottom, height <= self.bottom),
+                ] {
+                    // Only the edge between a face that is seen and one that is not is silhouette.
+                    if seen == face_seen {
+                        continue;
+                    }
+                    for eye in band {
+                        let mut steps = (eye - height) / (edge - height);
+                        if face_seen {
+                            // Eye and edge are on the same side, also where rounding is in doubt.
+                            steps = steps.abs();
+                        }
+                        limit = limit.min(along + steps * (side.offset - along));
+                    }
+                }
+            }
+        }
+        limit.is_finite().then_some(limit)
+    }
+
+    /// The half-planes `normal · p <= offset` through `v` that touch the footprint and hold it: two
+    /// for a point outside, none for a point inside.
+    fn tangents(&self, v: DVec2) -> [Option<(DVec2, f64)>; 2] {
+        let count = self.sides.len();
+        let sees = |i: usize| self.sides[i % count].normal.dot(v) >= self.sides[i % count].offset;
+        let half_plane = |normal: DVec2| (normal, normal.dot(v));
+        let first = (0..count).find(|&i| !sees(i) && sees(i + 1));
+        let last = (0..count).find(|&i| sees(i) && !sees(i + 1));
+        let touch = |i: usize| self.sides[(i + 1) % count].corner;
+        [
+            first.map(|i| half_plane((touch(i) - v).perp())),
+            last.map(|i| half_plane((v - touch(i)).perp())),
+        ]
+    }
 }
 
 #[cfg(test)]
@@ -164,36 +147,50 @@ mod tests {
 
     const WINDOW: [DVec2; 2] = [DVec2::new(-1e3, -1e3), DVec2::new(1e3, 1e3)];
 
-    /// Whether the open segment meets the open box, by clipping.
-    fn blocks(solid: &Box3d, p: DVec3, q: DVec3) -> bool {
+    /// Whether the open segment meets the inside of the prism less `margin`, by clipping.
+    fn blocks(prism: &ConvexPrism, margin: f64, p: DVec3, q: DVec3) -> bool {
+        let footprint = prism.footprint();
+        let upright = (0..footprint.len()).map(|i| {
+            let along = footprint[(i + 1) % footprint.len()] - footprint[i];
+            let outward = DVec2::new(along.y, -along.x) / along.length();
+            (outward.extend(0.0), footprint[i].extend(0.0))
+        });
+        let level = [
+            (DVec3::Z, DVec3::Z * prism.top()),
+            (
+                -DVec3::Z,
+                DVec3::Z
+                    * if prism.grounded() {
+                        -1e9
+                    } else {
+                        prism.bottom()
+                    },
+            ),
+        ];
         let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
-        for axis in 0..3 {
-            let run = q[axis] - p[axis];
-            let (low, high) = (solid.min[axis] - p[axis], solid.max[axis] - p[axis]);
-            if run == 0.0 {
-                if low >= 0.0 || high <= 0.0 {
-                    return false;
+        for (normal, point) in upright.chain(level) {
+            let depth = |r: DVec3| normal.dot(point - r) - margin;
+            let (a, b) = (depth(p), depth(q));
+            if a <= 0.0 && b <= 0.0 {
+                return false;
+            }
+            if a < 0.0 || b < 0.0 {
+                let t = a / (a - b);
+                if a < 0.0 {
+                    enter = enter.max(t)
+                } else {
+                    leave = leave.min(t)
                 }
-            } else {
-                let (a, b) = (low / run, high / run);
-                enter = enter.max(a.min(b));
-                leave = leave.min(a.max(b));
             }
         }
         enter < leave
     }
 
-    fn hides(occluder: &Occluder, eye: DVec3, occludee: &Box3d, margin: f64) -> bool {
-        let Some(mut solid) = occluder.bounds.expanded(-margin) else {
-            return false;
-        };
-        if occluder.grounded {
-            solid.min.z = -1e9;
-        }
+    fn hides(prism: &ConvexPrism, margin: f64, eye: DVec3, occludee: &Box3d) -> bool {
         occludee
             .corners()
             .iter()
-            .all(|&corner| blocks(&solid, eye, corner))
+            .all(|&corner| blocks(prism, margin, eye, corner))
     }
 
     fn solid_box(reach: i32, least: i32) -> impl Strategy<Value = Box3d> {
@@ -205,25 +202,60 @@ mod tests {
         })
     }
 
+    /// Corners on an ellipse, turned: 3 to 12 of them, some close together.
+    fn round_prism() -> impl Strategy<Value = ConvexPrism> {
+        let corners = prop::collection::btree_set(0..360i32, 3..=ConvexPrism::MOST_VERTICES);
+        (corners, solid_box(20, 1), 0..90i32, any::<bool>()).prop_map(
+            |(corners, bounds, turned, grounded)| {
+                let turned = DVec2::from_angle(f64::from(turned).to_radians());
+                let half = bounds.size().truncate() * 0.7;
+                let footprint = corners.into_iter().map(|degrees| {
+                    let on_circle = DVec2::from_angle(f64::from(degrees).to_radians());
+                    bounds.center().truncate() + turned.rotate(on_circle * half)
+                });
+                let (bottom, top) = (bounds.min.z, bounds.max.z);
+                ConvexPrism::new(footprint.collect(), bottom, top, grounded)
+                    .expect("an ellipse is convex")
+            },
+        )
+    }
+
+    fn any_prism() -> impl Strategy<Value = ConvexPrism> {
+        let boxes = (solid_box(20, 1), any::<bool>());
+        prop_oneof![
+            boxes.prop_map(|(b, grounded)| ConvexPrism::from_box(&b, grounded).expect("not flat")),
+            round_prism(),
+        ]
+    }
+
+    fn moved(prism: &ConvexPrism, shift: DVec3) -> ConvexPrism {
+        let footprint = prism
+            .footprint()
+            .iter()
+            .map(|&v| v + shift.truncate())
+            .collect();
+        let (bottom, top) = (prism.bottom() + shift.z, prism.top() + shift.z);
+        ConvexPrism::new(footprint, bottom, top, prism.grounded()).expect("convex after rounding")
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(3000))]
         #[test]
         fn every_corner_of_a_strip_is_in_the_umbra_and_little_is_lost(
-            bounds in solid_box(20, 1),
+            prism in any_prism(),
             occludee in solid_box(40, 0),
-            grounded in any::<bool>(),
             low in -30i32..30,
             height in 0i32..3,
             lane in -60i32..60,
             far in any::<bool>(),
         ) {
             let shift = if far { DVec3::new(85_000.0, 447_000.0, 0.0) } else { DVec3::ZERO };
-            let moved = |b: Box3d| Box3d { min: b.min + shift, max: b.max + shift };
-            let occluder = Occluder { feature: 1, bounds: moved(bounds), grounded };
-            let occludee = moved(occludee);
+            let prism = moved(&prism, shift);
+            let occludee = Box3d { min: occludee.min + shift, max: occludee.max + shift };
             let band = [f64::from(low), f64::from(low + height)];
             let window = WINDOW.map(|w| w + shift.truncate());
-            let region = umbra_in_band(&occluder, &occludee, band, window);
+            let region = ShadowCaster::new(&prism)
+                .and_then(|caster| caster.umbra_in_band(&occludee, band, window));
             for axis in 0..2 {
                 let across = shift[1 - axis] + f64::from(lane) + 0.25;
                 let strip = region.as_ref().and_then(|r| r.strip(axis, across, across + 1.5));
@@ -233,7 +265,7 @@ mod tests {
                     DVec3::new(across, along, z)
                 };
                 let in_umbra = |along: f64, margin: f64| [across, across + 1.5].iter().all(|&c| {
-                    band.iter().all(|&z| hides(&occluder, point(along, c, z), &occludee, margin))
+                    band.iter().all(|&z| hides(&prism, margin, point(along, c, z), &occludee))
                 });
                 if let Some([start, end]) = strip {
                     prop_assert!(in_umbra(start, 0.0) && in_umbra(end, 0.0));
@@ -253,14 +285,31 @@ mod tests {
     #[test]
     fn a_house_does_not_hide_a_sign_on_its_front() {
         let house = Box3d::new(DVec3::ZERO, DVec3::new(10.0, 10.0, 10.0));
-        let occluder = Occluder {
-            feature: 1,
-            bounds: house,
-            grounded: true,
-        };
+        let caster = ConvexPrism::from_box(&house, true).and_then(|p| ShadowCaster::new(&p));
         let sign = Box3d::new(DVec3::new(4.0, 0.0, 3.0), DVec3::new(6.0, 0.0, 4.0));
-        let region = umbra_in_band(&occluder, &sign, [1.5, 2.0], WINDOW);
-        let strip = region.and_then(|r| r.strip(0, -50.0, -49.0));
-        assert_eq!(strip, None);
+        let region = caster
+            .expect("thick")
+            .umbra_in_band(&sign, [1.5, 2.0], WINDOW);
+        assert!(region.is_none_or(|r| r.strip(0, -50.0, -49.0).is_none()));
+    }
+
+    #[test]
+    fn shrinking_takes_sides_and_whole_prisms_away() {
+        let caster = |footprint: &[[f64; 2]]| {
+            let footprint = footprint.iter().map(|&v| DVec2::from(v)).collect();
+            ShadowCaster::new(&ConvexPrism::new(footprint, 0.0, 1.0, true).expect("convex"))
+        };
+        let bevelled = [
+            [0.0, 0.0],
+            [4.0, 0.0],
+            [4.0, 4.0],
+            [1e-4, 4.0],
+            [0.0, 3.9999],
+        ];
+        assert_eq!(caster(&bevelled).expect("wide").sides.len(), 4);
+        assert!(caster(&[[0.0, 0.0], [9.0, 0.0], [9.0, 0.002], [0.0, 0.002]]).is_none());
+        let sheet =
+            ConvexPrism::from_box(&Box3d::new(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.002)), true);
+        assert!(ShadowCaster::new(&sheet.expect("not flat")).is_none());
     }
 }

@@ -1,7 +1,9 @@
 //! Occlusion volumes against brute force: each is in the umbra, and together they hide nearly
 //! all that single occluders can hide.
 
-use engine::{Box3d, Occluder, OcclusionVolume, VolumeOptions, VolumeSolver, scattered_city};
+use engine::{
+    Box3d, ConvexPrism, Occluder, OcclusionVolume, VolumeOptions, VolumeSolver, scattered_city,
+};
 use glam::DVec3;
 
 const OPTIONS: VolumeOptions = VolumeOptions {
@@ -54,8 +56,7 @@ fn solver(boxes: &[Box3d], seed: u64) -> VolumeSolver {
         .enumerate()
         .map(|(i, &bounds)| Occluder {
             feature: i as i64,
-            bounds,
-            grounded: true,
+            prism: ConvexPrism::from_box(&bounds, true).expect("not flat"),
         })
         .collect();
     VolumeSolver::new(occluders, &scattered_city(0, seed).streets, OPTIONS)

@@ -10,8 +10,8 @@ use super::morton;
 use super::solid::Solid;
 use crate::database::{Copy, quoted};
 use crate::failure::Failure;
-use crate::scene::{ring, rings};
-use crate::sql_types;
+use crate::scene::rings;
+use crate::sql_types::{self, Ring};
 
 /// Writes the features; returns their numbers.
 pub fn features(

@@ -8,6 +8,6 @@ mod volume;
 
 pub use feature::Feature;
 pub use load::{Scene, load};
-pub use street::{Street, ring, rings};
+pub use street::{Street, rings};
 pub use surfaces::{Surfaces, number};
 pub use volume::{Volume, count_volumes, stream_volumes};

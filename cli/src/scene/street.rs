@@ -31,15 +31,13 @@ impl Street {
     }
 }
 
-/// A ring as tables hold it.
-pub fn ring(line: &LineString<f64>) -> Ring {
-    // The closing vertex is left out.
-    let vertices = &line.0[..line.0.len().saturating_sub(1)];
-    Ring(vertices.iter().map(|c| [c.x, c.y]).collect())
-}
-
 /// The rings of a polygon as the table `street` holds them.
 pub fn rings(area: &Polygon<f64>) -> Vec<Ring> {
+    let ring = |line: &LineString<f64>| {
+        // The closing vertex is left out.
+        let vertices = &line.0[..line.0.len().saturating_sub(1)];
+        Ring(vertices.iter().map(|c| [c.x, c.y]).collect())
+    };
     std::iter::once(area.exterior())
         .chain(area.interiors())
         .map(ring)

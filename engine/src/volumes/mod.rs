@@ -2,7 +2,7 @@
 //! one occludee.
 //!
 //! Streets are grouped into [`Block`]s whose ground hardly varies. Within a block, what hides an
-//! occludee is a convex plan region for each occluder ([`crate::umbra_in_band`]); lanes of the
+//! occludee is a convex plan region for each occluder ([`crate::ShadowCaster`]); lanes of the
 //! block, halved adaptively, are filled with the intervals that lie inside those regions.
 
 mod block;

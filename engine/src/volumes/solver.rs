@@ -2,7 +2,7 @@
 
 use super::block::Block;
 use super::lanes::{Cover, LaneFiller, Shadow};
-use crate::{Box3d, Occluder, Street, umbra_in_band};
+use crate::{Box3d, Occluder, ShadowCaster, Street};
 use geo::Area;
 use glam::DVec2;
 use rstar::primitives::{GeomWithData, Rectangle};
@@ -52,30 +52,41 @@ pub struct OcclusionVolume {
     pub bounds: Box3d,
 }
 
+/// What hides, and in whose name.
+#[derive(Debug)]
+struct Caster {
+    feature: i64,
+    shape: ShadowCaster,
+}
+
 /// Occluders under a spatial index, and the blocks of street to look from.
 #[derive(Debug)]
 pub struct VolumeSolver {
-    occluders: Vec<Occluder>,
+    casters: Vec<Caster>,
     index: RTree<GeomWithData<Rectangle<[f64; 3]>, usize>>,
     blocks: Vec<Block>,
     options: VolumeOptions,
 }
 
 impl VolumeSolver {
-    /// Prepares a scene.
+    /// Prepares a scene. A feature may have several occluders.
     #[must_use]
     pub fn new(occluders: Vec<Occluder>, streets: &[Street], options: VolumeOptions) -> Self {
-        let entries = occluders.iter().enumerate().map(|(position, occluder)| {
-            let Box3d { min, max } = occluder.bounds;
-            GeomWithData::new(
-                Rectangle::from_corners(min.to_array(), max.to_array()),
-                position,
-            )
-        });
+        let mut casters = Vec::with_capacity(occluders.len());
+        let mut entries = Vec::with_capacity(occluders.len());
+        for Occluder { feature, prism } in occluders {
+            let Some(shape) = ShadowCaster::new(&prism) else {
+                continue;
+            };
+            let Box3d { min, max } = prism.envelope();
+            let bounds = Rectangle::from_corners(min.to_array(), max.to_array());
+            entries.push(GeomWithData::new(bounds, casters.len()));
+            casters.push(Caster { feature, shape });
+        }
         Self {
-            index: RTree::bulk_load(entries.collect()),
+            index: RTree::bulk_load(entries),
             blocks: Block::group(streets, options.smallest),
-            occluders,
+            casters,
             options,
         }
     }
@@ -100,7 +111,7 @@ impl VolumeSolver {
             let shadows = self.shadows(occludee, envelope, block);
             let (axis, cover) = self.best_cover(block, &shadows, &cancelled);
             found.extend(cover.pieces.iter().map(|piece| OcclusionVolume {
-                occluder: self.occluders[piece.occluder].feature,
+                occluder: self.casters[piece.occluder].feature,
                 occludee,
                 bounds: block.volume(axis, piece.lane, piece.span),
             }));
@@ -124,10 +135,10 @@ impl VolumeSolver {
         self.index
             .locate_in_envelope_intersecting(between)
             .map(|entry| entry.data)
-            .filter(|&position| self.occluders[position].feature != occludee)
+            .filter(|&position| self.casters[position].feature != occludee)
             .filter_map(|position| {
-                let occluder = &self.occluders[position];
-                let region = umbra_in_band(occluder, envelope, block.band, block.window)?;
+                let caster = &self.casters[position].shape;
+                let region = caster.umbra_in_band(envelope, block.band, block.window)?;
                 let [min, max] = region.rectangle();
                 let area = block.coverage.area(0, [min.y, max.y], [min.x, max.x]);
                 (area > self.options.worth).then_some(Shadow {

@@ -99,7 +99,7 @@ impl Writer {
     fn write_feature(&self, client: &mut SpiClient<'_>, source: &Source, solid: &Solid) -> Spi<()> {
         let id: Option<i64> = client.update(&self.next, None, &[])?.first().get(1)?;
         let id: DatumWithOid = id.into();
-        let outline = solid.prism.as_ref().map(|prism| polygon::ring_text(prism.hull.exterior()));
+        let outline = solid.prism.as_ref().map(|prism| polygon::corners_text(&prism.hull));
         client.update(
             &self.feature,
             None,

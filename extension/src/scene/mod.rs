@@ -7,6 +7,7 @@ mod occlusion_volumes;
 pub mod polygon;
 mod procedure;
 mod snapshot;
+mod solids;
 mod streets;
 mod view_region;
 mod workers;

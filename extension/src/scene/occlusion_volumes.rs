@@ -48,12 +48,12 @@ fn generate_occlusion_volumes(
     notice!(
         "{} features, {} of them solid, seen from {} streets",
         targets.len(),
-        snapshot.occluders.len(),
+        snapshot.solids.features(),
         streets.len()
     );
     let workers = Workers::start();
     let options = asked.options(&streets);
-    let solver = workers.run(|_| VolumeSolver::new(snapshot.occluders.clone(), &streets, options));
+    let solver = workers.run(|_| VolumeSolver::new(snapshot.solids.occluders(), &streets, options));
     job.start(targets.len());
     procedure.commit();
 

@@ -1,14 +1,18 @@
 //! Core's `polygon` as text: `((x,y),(x,y),…)`.
 
 use geo::{Coord, LineString, Polygon};
+use glam::DVec2;
 
 /// A ring as core writes it; the closing vertex is left out.
-pub fn ring_text(ring: &LineString<f64>) -> String {
+fn ring_text(ring: &LineString<f64>) -> String {
     let vertices = &ring.0[..ring.0.len().saturating_sub(1)];
-    let points: Vec<String> = vertices
-        .iter()
-        .map(|c| format!("({:?},{:?})", c.x, c.y))
-        .collect();
+    let corners: Vec<DVec2> = vertices.iter().map(|c| DVec2::new(c.x, c.y)).collect();
+    corners_text(&corners)
+}
+
+/// A ring of corners as core writes it.
+pub fn corners_text(corners: &[DVec2]) -> String {
+    let points: Vec<String> = corners.iter().map(|c| format!("({:?},{:?})", c.x, c.y)).collect();
     format!("({})", points.join(","))
 }
 

@@ -1,22 +1,22 @@
 //! [`Snapshot`], the features as they were when long work on them began.
 
+use super::solids::Solids;
 use super::{failed, quoted};
 use crate::types::Box3d;
-use engine::{Occluder, OcclusionVolume};
+use engine::OcclusionVolume;
 use pgrx::Spi;
 use pgrx::datum::DatumWithOid;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// A feature to be hidden: its number and outer envelope.
 pub type Target = (i64, engine::Box3d);
 
 /// What hides and what is hidden, as read.
 pub struct Snapshot {
-    /// The inner envelopes.
-    pub occluders: Vec<Occluder>,
+    /// What hides.
+    pub solids: Solids,
     /// All features, those near each other in turn.
     pub targets: Vec<Target>,
-    occluder_of: HashMap<i64, Occluder>,
     envelope_of: HashMap<i64, engine::Box3d>,
 }
 
@@ -24,21 +24,13 @@ impl Snapshot {
     /// Reads a scene.
     pub fn read(scene: &str) -> Self {
         let scene = quoted(scene);
-        let occluders = occluders(
-            &format!("SELECT feature, box, grounded FROM {scene}.inner_envelope"),
-            &[],
-        );
         let targets = targets(
             &format!("SELECT id, envelope FROM {scene}.feature ORDER BY slot NULLS LAST, id"),
             &[],
         );
         Self {
-            occluder_of: occluders
-                .iter()
-                .map(|occluder| (occluder.feature, *occluder))
-                .collect(),
+            solids: Solids::read(&scene, "true", &[]),
             envelope_of: targets.iter().copied().collect(),
-            occluders,
             targets,
         }
     }
@@ -47,10 +39,10 @@ impl Snapshot {
     /// locked until the commit, after which triggers take care of their volumes.
     pub fn drop_changed(&self, scene: &str, batch: &[Target], volumes: &mut Vec<OcclusionVolume>) {
         let names: Vec<i64> = batch.iter().map(|(feature, _)| *feature).collect();
-        let lock = "OPERATOR(pg_catalog.=) ANY ($1) FOR SHARE";
+        let theirs = "OPERATOR(pg_catalog.=) ANY ($1) FOR SHARE";
         let scene = quoted(scene);
         let envelopes: HashMap<i64, engine::Box3d> = targets(
-            &format!("SELECT id, envelope FROM {scene}.feature WHERE id {lock}"),
+            &format!("SELECT id, envelope FROM {scene}.feature WHERE id {theirs}"),
             &[names.into()],
         )
         .into_iter()
@@ -58,47 +50,16 @@ impl Snapshot {
         let mut names: Vec<i64> = volumes.iter().map(|volume| volume.occluder).collect();
         names.sort_unstable();
         names.dedup();
-        let occluders: HashMap<i64, Occluder> = occluders(
-            &format!(
-                "SELECT feature, box, grounded FROM {scene}.inner_envelope WHERE feature {lock}"
-            ),
-            &[names.into()],
-        )
-        .into_iter()
-        .map(|occluder| (occluder.feature, occluder))
-        .collect();
+        let solids = Solids::read(&scene, &format!("feature {theirs}"), &[names.clone().into()]);
+        let same: HashSet<i64> = names
+            .into_iter()
+            .filter(|&feature| self.solids.same(&solids, feature))
+            .collect();
         volumes.retain(|volume| {
             envelopes.get(&volume.occludee) == self.envelope_of.get(&volume.occludee)
-                && occluders.get(&volume.occluder) == self.occluder_of.get(&volume.occluder)
+                && same.contains(&volume.occluder)
         });
     }
-}
-
-/// The occluders that a query of feature, box, grounded returns.
-fn occluders(query: &str, arguments: &[DatumWithOid]) -> Vec<Occluder> {
-    // A read-only query may not lock rows.
-    let rows = Spi::connect_mut(|client| {
-        client
-            .update(query, None, arguments)?
-            .map(|row| {
-                Ok((
-                    row.get::<i64>(1)?,
-                    row.get::<Box3d>(2)?,
-                    row.get::<bool>(3)?,
-                ))
-            })
-            .collect::<Result<Vec<_>, pgrx::spi::Error>>()
-    });
-    rows.unwrap_or_else(|error| failed(&error))
-        .into_iter()
-        .filter_map(|(feature, bounds, grounded)| {
-            Some(Occluder {
-                feature: feature?,
-                bounds: bounds?.0,
-                grounded: grounded?,
-            })
-        })
-        .collect()
 }
 
 /// The features that a query of id, envelope returns.

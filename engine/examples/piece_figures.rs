@@ -1,0 +1,316 @@
+//! How much single convex occluders hide in a real city: inner envelopes against convex pieces of
+//! solid columns.
+//!
+//!     cargo run --release -p engine --example piece_figures -- FILE [PIECES [SHARE [WORTH]]]
+
+use std::collections::HashSet;
+use std::time::Instant;
+
+use engine::{
+    Box3d, ConvexPieceOptions, ConvexPrism, LocalGround, Occluder, Site, SolidColumn, Street,
+    TriangleMesh, ViewRegionOptions, VolumeOptions, VolumeSolver, convex_pieces, footprint,
+    inner_envelope, open_space,
+};
+use formats::{Feature, ReadOptions, read_bytes};
+use geo::{Area, BoundingRect, Contains, Point};
+use glam::{DVec2, DVec3};
+
+/// As in docs/benchmarks.md.
+const SMALLEST: f64 = 2.0;
+const RANGE: f64 = 500.0;
+
+const EYES: usize = 200;
+
+/// Prisms stand on the ground or end here.
+const FAR_BELOW: f64 = -1e6;
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let file = arguments.first().expect("name a file");
+    let number = |i: usize| {
+        arguments
+            .get(i)
+            .map(|text| text.parse::<f64>().expect("a number"))
+    };
+    let usual = ConvexPieceOptions::default();
+    let options = ConvexPieceOptions {
+        most: number(1).map_or(usual.most, |most| most as usize),
+        least_share: number(2).unwrap_or(usual.least_share),
+    };
+    let bytes = std::fs::read(file).expect("a readable file");
+    let scene = read_bytes(file, &bytes, &ReadOptions::default()).expect("a city model");
+    let houses: Vec<House> = scene.features.iter().map(House::of).collect();
+    let envelopes: Vec<Box3d> = houses.iter().map(|house| house.envelope).collect();
+    let ground = LocalGround::new(&envelopes);
+    let sites: Vec<Site> = houses.iter().map(House::site).collect();
+    let streets = open_space(&sites, &ViewRegionOptions::default());
+    let eyes = eyes(&streets);
+    let volumes = VolumeOptions {
+        smallest: SMALLEST,
+        worth: number(3).unwrap_or(VolumeOptions::usual_worth(SMALLEST, &streets)),
+        range: Some(RANGE),
+    };
+    println!(
+        "{} features, {} streets, {volumes:?}, {options:?}",
+        houses.len(),
+        streets.len()
+    );
+    let stands = |house: &House| ground.holds(&house.envelope, house.envelope.min.z);
+    let boxes = occluders(&houses, |house| {
+        let inner = inner_envelope(&house.mesh).ok();
+        let prism = inner.and_then(|inner| {
+            ConvexPrism::from_box(&inner.bounds, inner.grounded && stands(house))
+        });
+        prism.into_iter().collect()
+    });
+    report(
+        "inner envelopes",
+        &boxes,
+        &envelopes,
+        &streets,
+        &eyes,
+        volumes,
+    );
+    let columns: Vec<Vec<SolidColumn>> = houses.iter().map(House::columns).collect();
+    let count: usize = columns.iter().map(Vec::len).sum();
+    let begun = Instant::now();
+    let mut pieces = Vec::new();
+    for (feature, columns) in columns.iter().enumerate() {
+        let prisms = convex_pieces(columns, &options);
+        pieces.extend(prisms.into_iter().map(|prism| Occluder {
+            feature: feature as i64,
+            prism,
+        }));
+    }
+    println!(
+        "{count} columns to pieces: {:.2} s",
+        begun.elapsed().as_secs_f64()
+    );
+    report(
+        "convex pieces",
+        &pieces,
+        &envelopes,
+        &streets,
+        &eyes,
+        volumes,
+    );
+}
+
+struct House {
+    envelope: Box3d,
+    mesh: TriangleMesh,
+}
+
+impl House {
+    fn of(feature: &Feature) -> Self {
+        let points = |geometry: &formats::Geometry| -> Vec<DVec3> {
+            let surfaces = geometry.surfaces();
+            let rings = surfaces.iter().flat_map(|surface| &surface.rings);
+            rings.flatten().map(|&point| DVec3::from(point)).collect()
+        };
+        let levels = feature.geometries.iter().map(|g| g.level_of_detail);
+        let best = levels.fold(0.0, f64::max);
+        let polygons = feature
+            .geometries
+            .iter()
+            .filter(|geometry| geometry.level_of_detail == best)
+            .flat_map(|geometry| geometry.surfaces().into_owned())
+            .map(|surface| -> Vec<Vec<DVec3>> {
+                let ring = |ring: Vec<[f64; 3]>| ring.into_iter().map(DVec3::from).collect();
+                surface.rings.into_iter().map(ring).collect()
+            });
+        Self {
+            envelope: Box3d::around(feature.geometries.iter().flat_map(points)).expect("a point"),
+            mesh: TriangleMesh::from_polygons(polygons),
+        }
+    }
+
+    fn site(&self) -> Site {
+        Site {
+            footprint: footprint(&self.mesh),
+            foot: self.envelope.min.z,
+        }
+    }
+
+    /// Stand-in: under the roof faces whose lowest vertex is above each of some heights.
+    fn columns(&self) -> Vec<SolidColumn> {
+        let foot = self.mesh.envelope().expect("faces").min.z;
+        let roof: Vec<[DVec3; 3]> = self
+            .mesh
+            .corners()
+            .filter(|[a, b, c]| (*b - *a).cross(*c - *a).normalize_or_zero().z > 1e-3)
+            .collect();
+        let eave = |corners: &[DVec3; 3]| corners.iter().fold(f64::INFINITY, |z, p| z.min(p.z));
+        let mut heights: Vec<f64> = roof.iter().map(eave).filter(|z| *z > foot + 1.0).collect();
+        heights.sort_by(f64::total_cmp);
+        heights.dedup_by(|a, b| *a - *b < 0.2);
+        let step = heights.len().div_ceil(8).max(1);
+        heights
+            .into_iter()
+            .step_by(step)
+            .flat_map(|top| {
+                let above = roof.iter().filter(|corners| eave(corners) >= top);
+                let mesh = TriangleMesh::from_triangles(above.copied());
+                footprint(&mesh)
+                    .into_iter()
+                    .map(move |footprint| SolidColumn {
+                        footprint,
+                        bottom: foot,
+                        top,
+                        grounded: true,
+                    })
+            })
+            .collect()
+    }
+}
+
+fn occluders(houses: &[House], prisms: impl Fn(&House) -> Vec<ConvexPrism>) -> Vec<Occluder> {
+    let of = |(feature, house)| {
+        let prisms: Vec<ConvexPrism> = prisms(house);
+        prisms.into_iter().map(move |prism| Occluder {
+            feature: feature as i64,
+            prism,
+        })
+    };
+    houses.iter().enumerate().flat_map(of).collect()
+}
+
+/// Places on the streets, from a fixed sequence.
+fn eyes(streets: &[Street]) -> Vec<DVec3> {
+    let total: f64 = streets
+        .iter()
+        .map(|street| street.area.unsigned_area())
+        .sum();
+    let unit = |i: usize, base: f64| (i as f64 * base).fract();
+    let mut eyes = Vec::new();
+    for i in 1.. {
+        let mut rest = unit(i, 0.754_877_666_246_693) * total;
+        let street = streets.iter().find(|street| {
+            rest -= street.area.unsigned_area();
+            rest < 0.0
+        });
+        let Some(street) = street else { continue };
+        let rect = street.area.bounding_rect().expect("an area");
+        let x = rect.min().x + unit(i, 0.569_840_290_998_053) * rect.width();
+        let y = rect.min().y + unit(i, 0.362_656_070_415_29) * rect.height();
+        if street.area.contains(&Point::new(x, y)) {
+            eyes.push(DVec3::new(x, y, (street.eye_low + street.eye_high) / 2.0));
+        }
+        if eyes.len() == EYES {
+            break;
+        }
+    }
+    eyes
+}
+
+fn report(
+    name: &str,
+    occluders: &[Occluder],
+    envelopes: &[Box3d],
+    streets: &[Street],
+    eyes: &[DVec3],
+    options: VolumeOptions,
+) {
+    let limit = hidden_by_single(occluders, envelopes, eyes);
+    let begun = Instant::now();
+    let solver = VolumeSolver::new(occluders.to_vec(), streets, options);
+    let (mut count, mut found, mut false_ones) = (0, 0, 0);
+    for (feature, envelope) in envelopes.iter().enumerate() {
+        let volumes = solver
+            .volumes(feature as i64, envelope, || false)
+            .expect("not cancelled");
+        count += volumes.len();
+        for (i, eye) in eyes.iter().enumerate() {
+            if in_range(*eye, envelope) && volumes.iter().any(|v| v.bounds.contains_point(*eye)) {
+                found += 1;
+                false_ones += usize::from(!limit.contains(&(i, feature)));
+            }
+        }
+    }
+    let seconds = begun.elapsed().as_secs_f64();
+    let pairs: usize = eyes
+        .iter()
+        .map(|eye| envelopes.iter().filter(|e| in_range(*eye, e)).count())
+        .sum();
+    let share = |part: usize| part as f64 / pairs as f64 * 100.0;
+    println!(
+        "{name}: {} occluders; of {pairs} pairs single ones hide {:.2} %, volumes {:.2} % \
+         ({false_ones} falsely); {count} volumes, {seconds:.1} s",
+        occluders.len(),
+        share(limit.len()),
+        share(found),
+    );
+}
+
+fn in_range(eye: DVec3, envelope: &Box3d) -> bool {
+    envelope.distance_to_point(eye) <= RANGE
+}
+
+/// Pairs of eye and feature such that one prism of another feature hides the whole envelope.
+fn hidden_by_single(
+    occluders: &[Occluder],
+    envelopes: &[Box3d],
+    eyes: &[DVec3],
+) -> HashSet<(usize, usize)> {
+    let mut hidden = HashSet::new();
+    let bounds: Vec<Box3d> = occluders
+        .iter()
+        .map(|occluder| {
+            let mut bounds = occluder.prism.envelope();
+            if occluder.prism.grounded() {
+                bounds.min.z = FAR_BELOW;
+            }
+            bounds
+        })
+        .collect();
+    for (i, eye) in eyes.iter().enumerate() {
+        for (feature, envelope) in envelopes.iter().enumerate() {
+            if !in_range(*eye, envelope) {
+                continue;
+            }
+            let corners = envelope.corners();
+            let between = Box3d::new(*eye, corners[0]);
+            let hides = |(occluder, bounds): (&Occluder, &Box3d)| {
+                occluder.feature != feature as i64
+                    && bounds.overlaps(&between)
+                    && corners
+                        .iter()
+                        .all(|corner| blocks(&occluder.prism, *eye, *corner))
+            };
+            if occluders.iter().zip(&bounds).any(hides) {
+                hidden.insert((i, feature));
+            }
+        }
+    }
+    hidden
+}
+
+/// Whether the open segment meets the inside of the prism, by clipping.
+fn blocks(prism: &ConvexPrism, p: DVec3, q: DVec3) -> bool {
+    let footprint = prism.footprint();
+    let bottom = if prism.grounded() {
+        FAR_BELOW
+    } else {
+        prism.bottom()
+    };
+    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+    let mut clip = |a: f64, b: f64| {
+        if a <= 0.0 && b <= 0.0 {
+            return false;
+        }
+        if a < 0.0 {
+            enter = enter.max(a / (a - b));
+        } else if b < 0.0 {
+            leave = leave.min(a / (a - b));
+        }
+        enter < leave
+    };
+    clip(prism.top() - p.z, prism.top() - q.z)
+        && clip(p.z - bottom, q.z - bottom)
+        && (0..footprint.len()).all(|i| {
+            let from = footprint[i];
+            let along: DVec2 = footprint[(i + 1) % footprint.len()] - from;
+            let depth = |r: DVec3| along.perp_dot(r.truncate() - from);
+            clip(depth(p), depth(q))
+        })
+}

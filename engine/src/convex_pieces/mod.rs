@@ -1,0 +1,134 @@
+//! [`convex_pieces`], the few convex prisms of a feature that hide the most.
+
+mod border;
+mod certificate;
+mod growth;
+mod silhouette;
+
+use border::Border;
+use certificate::lies_inside;
+use glam::DVec2;
+use growth::piece_around;
+
+use crate::convex_polygon::{area, is_strictly_convex, shrunk, sides};
+use crate::{ConvexPrism, SolidColumn};
+
+/// Vertices of a column's footprint above which it is left out, so that a hostile one cannot take
+/// minutes.
+const MOST_EDGES: usize = 2000;
+
+/// Pieces are sought around so many places of one column at the most.
+const MOST_SEEDS: usize = 16;
+
+/// Corners that are not vertices of the column are moved so far inwards, metres: more than rounding
+/// moves them, which is below a nanometre but where edges are nearly parallel.
+const INWARD: f64 = 1e-6;
+
+/// All sides of a piece that is not certified at first are moved so far inwards, metres: more than
+/// a footprint's vertices are out of line after unions and differences.
+const INWARD_ALL: f64 = 1e-5;
+
+/// A corner that cuts off less than this is left out, square metres.
+const NO_CORNER: f64 = 1e-3;
+
+/// Corners this near to a vertex of the column are that vertex, metres.
+const SAME_VERTEX: f64 = 1e-6;
+
+/// How many pieces to look for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConvexPieceOptions {
+    /// Pieces of one feature at the most.
+    pub most: usize,
+    /// What each further piece must add to the feature's silhouette, as a share of it.
+    pub least_share: f64,
+}
+
+impl Default for ConvexPieceOptions {
+    fn default() -> Self {
+        Self {
+            most: 6,
+            least_share: 0.02,
+        }
+    }
+}
+
+/// Large convex prisms inside the columns of one feature, the most useful one first.
+///
+/// *Always inside*: each piece lies wholly in one column, by exact signs of orientations. Its
+/// corners are vertices of the column, bit for bit, or lie micrometres inside.
+///
+/// *Useful*: pieces overlap, since what hides is a whole convex piece and never two parts of it.
+/// They are chosen by what they add to the silhouette of those chosen before, averaged over
+/// directions: a lower wide piece and a higher narrow one are both kept, a piece within another
+/// never is.
+#[must_use]
+pub fn convex_pieces(columns: &[SolidColumn], options: &ConvexPieceOptions) -> Vec<ConvexPrism> {
+    let found: Vec<ConvexPrism> = columns.iter().flat_map(pieces_of_column).collect();
+    silhouette::most_useful(found, options)
+}
+
+/// Convex pieces that together cover most of one column.
+fn pieces_of_column(column: &SolidColumn) -> Vec<ConvexPrism> {
+    let Some(border) = Border::new(&column.footprint, MOST_EDGES) else {
+        return Vec::new();
+    };
+    let mut grown: Vec<Vec<DVec2>> = Vec::new();
+    for seed in border.seeds().take(MOST_SEEDS) {
+        if grown.iter().any(|piece| holds(piece, seed)) {
+            continue;
+        }
+        grown.extend(piece_around(seed, &border.edges, &border.hull));
+    }
+    grown
+        .into_iter()
+        .filter_map(|piece| certified(without_least_corners(piece), &border))
+        .filter_map(|piece| ConvexPrism::new(piece, column.bottom, column.top, column.grounded))
+        .collect()
+}
+
+/// Whether a point lies in a convex polygon.
+fn holds(polygon: &[DVec2], point: DVec2) -> bool {
+    sides(polygon)
+        .iter()
+        .all(|side| side.normal.dot(point) <= side.offset)
+}
+
+/// A convex polygon without the corners that cut off the least, down to as many as a prism may
+/// have: always inside the old one.
+fn without_least_corners(mut polygon: Vec<DVec2>) -> Vec<DVec2> {
+    while polygon.len() > 3 {
+        let count = polygon.len();
+        let cut_off = |i: usize| {
+            let corner = |steps: usize| polygon[(i + steps) % count];
+            area(&[corner(count - 1), corner(0), corner(1)])
+        };
+        let cuts = (0..count).map(|i| (i, cut_off(i)));
+        let Some((least, cut)) = cuts.min_by(|a, b| a.1.total_cmp(&b.1)) else {
+            break;
+        };
+        if count <= ConvexPrism::MOST_VERTICES && cut > NO_CORNER {
+            break;
+        }
+        polygon.remove(least);
+    }
+    polygon
+}
+
+/// A piece in absolute coordinates, moved inwards as little as its certificate asks for.
+fn certified(piece: Vec<DVec2>, border: &Border) -> Option<Vec<DVec2>> {
+    let middle = piece.iter().sum::<DVec2>() / piece.len() as f64;
+    let exact = |&corner: &DVec2| {
+        let inward = || corner + (middle - corner).normalize_or_zero() * INWARD + border.origin;
+        border
+            .vertex_near(corner, SAME_VERTEX)
+            .unwrap_or_else(inward)
+    };
+    let is_right =
+        |piece: &Vec<DVec2>| is_strictly_convex(piece) && lies_inside(piece, border.edges());
+    Some(piece.iter().map(exact).collect())
+        .filter(is_right)
+        .or_else(|| {
+            let within = shrunk(piece, INWARD_ALL).into_iter();
+            Some(within.map(|corner| corner + border.origin).collect()).filter(is_right)
+        })
+}

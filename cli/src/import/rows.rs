@@ -37,10 +37,8 @@ pub fn features(
         let slot = i32::try_from(slots[i])
             .ok()
             .and_then(|slot| slot.checked_add(first_slot));
-        let outline = solids[i]
-            .prism
-            .as_ref()
-            .map(|prism| ring(prism.hull.exterior()));
+        let prism = solids[i].prism.as_ref();
+        let outline = prism.map(|p| Ring(p.hull.iter().map(|p| p.to_array()).collect()));
         copy.row(&[
             &ids[i],
             &feature.name,

@@ -5,9 +5,11 @@ use super::solid::Solid;
 use crate::scene::{polygon, quoted};
 use crate::types::Box3d;
 use pgrx::JsonB;
-use pgrx::datum::DatumWithOid;
 use pgrx::spi::{OwnedPreparedStatement, SpiClient};
-use pgrx::{PgBuiltInOids, PgOid};
+use pgrx::PgOid;
+use pgrx::pg_sys::BuiltinOid::{
+    self, BOOLOID, FLOAT8ARRAYOID, FLOAT8OID, INT4ARRAYOID, INT8OID, JSONBOID, TEXTARRAYOID, TEXTOID,
+};
 
 type Spi<T> = Result<T, pgrx::spi::Error>;
 
@@ -25,13 +27,12 @@ pub struct Writer {
 impl Writer {
     /// For a scene; `source` is what remarks say that rows came from.
     pub fn new(client: &mut SpiClient<'_>, scene: &str, source: &str) -> Spi<Self> {
-        use PgBuiltInOids::{BOOLOID, FLOAT8ARRAYOID, FLOAT8OID, INT4ARRAYOID, INT8OID, JSONBOID, TEXTARRAYOID, TEXTOID};
         let scene = quoted(scene);
         let box3d: PgOid = PgOid::from(<Box3d as pgrx::IntoDatum>::type_oid());
         let mut prepare = |statement: String, types: &[PgOid]| -> Spi<OwnedPreparedStatement> {
             Ok(client.prepare_mut(statement.as_str(), types)?.keep())
         };
-        let of = |types: &[PgBuiltInOids]| -> Vec<PgOid> {
+        let of = |types: &[BuiltinOid]| -> Vec<PgOid> {
             types.iter().map(|&oid| PgOid::BuiltIn(oid)).collect()
         };
         Ok(Self {
@@ -98,13 +99,12 @@ impl Writer {
 
     fn write_feature(&self, client: &mut SpiClient<'_>, source: &Source, solid: &Solid) -> Spi<()> {
         let id: Option<i64> = client.update(&self.next, None, &[])?.first().get(1)?;
-        let id: DatumWithOid = id.into();
         let outline = solid.prism.as_ref().map(|prism| polygon::corners_text(&prism.hull));
         client.update(
             &self.feature,
             None,
             &[
-                id.clone(),
+                id.into(),
                 source.name.clone().into(),
                 class(source).into(),
                 Box3d(solid.envelope).into(),
@@ -120,7 +120,7 @@ impl Writer {
             &self.mesh,
             None,
             &[
-                id.clone(),
+                id.into(),
                 solid.level_of_detail.into(),
                 vertices.into(),
                 triangles.into(),
@@ -131,12 +131,12 @@ impl Writer {
         if let Ok(hides) = &solid.solid.hides {
             if let Some(inner) = hides.inner {
                 let bounds = Box3d(inner.bounds);
-                let row = [id.clone(), bounds.into(), inner.grounded.into()];
+                let row = [id.into(), bounds.into(), inner.grounded.into()];
                 client.update(&self.inner_envelope, None, &row)?;
             }
             for column in &hides.columns.columns {
                 let row = [
-                    id.clone(),
+                    id.into(),
                     polygon::area_text(&column.footprint).into(),
                     column.bottom.into(),
                     column.top.into(),

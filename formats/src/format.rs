@@ -36,8 +36,12 @@ impl Format {
         if text.starts_with(b"#VRML ") {
             return Some(Self::Vrml97);
         }
+        if text.starts_with(b"ply\n") || text.starts_with(b"ply\r") {
+            return Some(Self::Ply);
+        }
         match text.iter().find(|byte| !byte.is_ascii_whitespace()) {
             Some(b'{') => Some(Self::CityJson),
+            Some(_) if obj::recognises(text) => Some(Self::Obj),
             _ => None,
         }
     }

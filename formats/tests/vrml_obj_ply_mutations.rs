@@ -156,9 +156,9 @@ fn check(scene: &SceneDescription) -> Result<(), TestCaseError> {
     for feature in &scene.features {
         prop_assert!(!feature.geometries.is_empty() && feature.attributes.is_object());
         for geometry in &feature.geometries {
-            let shape = &geometry.shape;
-            prop_assert!(!shape.surfaces.is_empty());
-            for surface in &shape.surfaces {
+            let (shape, surfaces) = (&geometry.shape, geometry.surfaces());
+            prop_assert!(!surfaces.is_empty());
+            for surface in surfaces.iter() {
                 let known = surface
                     .material
                     .is_none_or(|i| (i as usize) < shape.materials.len());

@@ -84,9 +84,9 @@ pub(super) fn check_name(name: &str) -> Result<(), Problem> {
 
 /// Sets one property of a material, where its value is numbers.
 fn set(entry: &mut LibraryMaterial, keyword: &str, rest: &str) {
-    let numbers: Vec<f64> = rest
-        .split_whitespace()
-        .map_while(|text| text.parse().ok())
+    let numbers = rest.split_whitespace().map_while(|text| text.parse().ok());
+    let numbers: Vec<f64> = numbers
+        .take_while(|number: &f64| number.is_finite())
         .collect();
     let share = |factor: f64| {
         numbers
@@ -115,10 +115,9 @@ fn set(entry: &mut LibraryMaterial, keyword: &str, rest: &str) {
     }
 }
 
-/// Puts a value in place of another, unless it is none or no number.
-fn replace<T: PartialEq>(place: &mut T, value: Option<T>) {
-    // What is not equal to itself holds something that is not a number.
-    if let Some(value) = value.filter(|value| value == value) {
+/// Puts a value in place of another, if there is one.
+fn replace<T>(place: &mut T, value: Option<T>) {
+    if let Some(value) = value {
         *place = value;
     }
 }

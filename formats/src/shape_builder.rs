@@ -63,8 +63,9 @@ impl ShapeBuilder {
 }
 
 /// Refuses positions that are no numbers or too far away.
-fn check_position(position: &[f64; 3]) -> Result<(), Problem> {
-    match position.iter().find(|c| !(c.abs() <= MAX_COORDINATE)) {
+pub(crate) fn check_position(position: &[f64; 3]) -> Result<(), Problem> {
+    let range = -MAX_COORDINATE..=MAX_COORDINATE;
+    match position.iter().find(|c| !range.contains(c)) {
         None => Ok(()),
         Some(coordinate) => Err(Problem::Invalid {
             what: "coordinate".to_owned(),

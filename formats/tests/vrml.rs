@@ -1,5 +1,6 @@
 //! VRML97: what each node gives, and what is refused.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use formats::{Feature, ReadOptions, SceneDescription, Surface, read_bytes};
@@ -76,8 +77,8 @@ fn extent(surfaces: &[Surface]) -> ([f64; 3], [f64; 3]) {
 fn primitives_are_closed_and_oriented_outwards() {
     let cases = [
         ("Box { size 2 4 6 }", 48.0, 48.0),
-        ("Cone { bottomRadius 2 height 3 }", 11.0, 4.0 * 3.1416),
-        ("Cylinder { radius 2 height 3 }", 36.0, 12.0 * 3.1416),
+        ("Cone { bottomRadius 2 height 3 }", 11.0, 4.0 * PI),
+        ("Cylinder { radius 2 height 3 }", 36.0, 12.0 * PI),
         ("Sphere { radius 2 }", 32.0, 33.511),
         ("Extrusion { }", 4.0, 4.0),
         ("Extrusion { spine [0 0 0, 0 0 5] }", 20.0, 20.0),
@@ -226,6 +227,24 @@ fn uses_share_one_shape() {
         volume(&geometries[3].surfaces()) > 0.0,
         "mirrored, and still outwards"
     );
+}
+
+#[test]
+fn instances_are_checked_where_they_stand() {
+    let cone = "DEF C Shape { geometry Cone { } }";
+    let far = "Transform { translation 0 0 1e9 children USE C }";
+    let error = try_read(&format!("{cone}\n{far}")).unwrap_err();
+    let message =
+        "city.wrl, line 2: coordinate is -1000000001.0, expected a number of metres up to 1e9";
+    assert_eq!(error, message);
+    let flat = "DEF F Transform { scale 1 0 1 children USE C }";
+    let scene = read(&format!("{cone} {flat}"));
+    let expected = surfaces(&scene.features[1]).len();
+    assert!(expected > 0 && scene.features[1].geometries[0].placement.is_none());
+    let point = read(&format!(
+        "{cone} DEF L Transform {{ scale 0 0 0 children USE C }}"
+    ));
+    assert_eq!((point.features.len(), point.skipped.len()), (1, 1));
 }
 
 #[test]

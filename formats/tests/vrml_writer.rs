@@ -1,8 +1,11 @@
 //! What is written as VRML97 comes back.
 
+mod common;
+
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use common::{real_file, sequence_of_buildings};
 use formats::{
     Feature, Geometry, Material, Model, Placement, ReadOptions, SceneDescription, Shape, Surface,
     read_bytes, write_vrml,
@@ -274,6 +277,35 @@ fn nothing_is_a_file_too() {
     ];
     let models = [model(1, "", vec![geometry(&shape(flat), None)])];
     assert!(read(&write_vrml(&models, None)).features.is_empty());
+}
+
+/// The best level of detail of a feature.
+fn best_level(id: usize, mut feature: Feature) -> Model {
+    let levels = feature.geometries.iter().map(|g| g.level_of_detail);
+    let best = levels.fold(0.0, f64::max);
+    feature.geometries.retain(|g| g.level_of_detail == best);
+    let id = id.try_into().expect("a small number");
+    Model { id, feature }
+}
+
+#[test]
+fn delft_comes_back() {
+    let bytes = real_file("delft.city.jsonl").unwrap_or_else(|| sequence_of_buildings(100));
+    let scene = read_bytes("delft", &bytes, &ReadOptions::default()).expect("a real city");
+    let features = scene.features.into_iter().enumerate();
+    let models: Vec<_> = features
+        .map(|(id, feature)| best_level(id, feature))
+        .collect();
+    let back = read(&write_vrml(&models, scene.srid));
+    assert_eq!((back.srid, back.features.len()), (scene.srid, models.len()));
+    for (read, model) in back.features.iter().zip(&models) {
+        let wrote = &model.feature;
+        assert_eq!((&read.name, &read.class), (&wrote.name, &wrote.class));
+        assert_eq!(read.attributes, wrote.attributes);
+        let (before, after) = (surfaces(wrote), surfaces(read));
+        assert!(open_edges(&after) <= open_edges(&before), "{}", read.name);
+        assert_eq!(after.len(), before.len());
+    }
 }
 
 proptest! {

@@ -1,14 +1,14 @@
-//! Wavefront OBJ.
+//! Wavefront OBJ with its material libraries.
+//!
+//! Each `o` is a feature; without any, each `g`; without both the whole file is one, named like the
+//! file. A name that comes again continues its feature. The format says nothing of axes: x is taken
+//! as east, y as north and z as up, in metres, as surveyors' programs write it. Faces keep all their
+//! corners; texture coordinates, normals, vertex colours and smoothing change no shape and are
+//! passed over; lines, points and free-form surfaces are left out.
 
-use crate::error::{FormatError, Location, Problem};
-use crate::input::{Input, ReadOptions, Sink};
+mod features;
+mod lines;
+mod materials;
+mod reader;
 
-/// Reads a file.
-pub(crate) fn read(
-    name: &str,
-    _input: &mut dyn Input,
-    _options: &ReadOptions<'_>,
-    _sink: &mut Sink<'_>,
-) -> Result<(), FormatError> {
-    Err(Location::file(name).error(Problem::UnknownFormat))
-}
+pub(crate) use reader::{read, recognises};

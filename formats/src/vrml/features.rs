@@ -54,11 +54,8 @@ pub(super) fn hand_over(
 
 /// What the file says of itself.
 fn head(graph: &Graph<'_>) -> SceneDescription {
-    let nodes = graph.roots.iter().map(|id| graph.node(*id));
-    let Some(info) = nodes
-        .filter(|node| node.node_type.name == "WorldInfo")
-        .next()
-    else {
+    let mut nodes = graph.roots.iter().map(|id| graph.node(*id));
+    let Some(info) = nodes.find(|node| node.node_type.name == "WorldInfo") else {
         return SceneDescription::default();
     };
     let title = info.texts("title").first().map(|title| title.to_string());
@@ -122,13 +119,13 @@ impl Features<'_, '_> {
             let subtree = self.shapes.subtree(id, placement, level, max_vertices)?;
             notes.extend(&subtree.own.notes);
             self.batch_vertices += subtree.own.vertices + subtree.instances.len();
-            self.batch.degenerate_rings += subtree.own.degenerate_rings;
             let level = match description.level_of_detail {
                 Some(described) if node.levels == 1 => described,
                 _ => BEST_LEVEL - level as f64,
             };
             geometries.extend(geometries_of(subtree, level));
         }
+        self.batch.degenerate_rings += std::mem::take(&mut self.shapes.degenerate_rings);
         self.push(name, description, geometries, &notes);
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! The frame of VRML97, x east, y up, z south, against that of scenes, x east, y north, z up; and
 //! the placements of nodes in it.
 
+use super::faces::{cross, dot};
 use super::graph::Node;
 use crate::placement::Placement;
 
@@ -49,6 +50,12 @@ pub(super) fn placement_of(node: &Node<'_>) -> Placement {
     ];
     let start = Placement::moved_by(node.vector("translation"));
     steps.iter().fold(start, |all, step| all.after(step))
+}
+
+/// Whether a placement leaves no volume of anything.
+pub(super) fn is_flat(placement: &Placement) -> bool {
+    let [a, b, c] = placement.rows.map(|[x, y, z, _]| [x, y, z]);
+    dot(cross(a, b), c) == 0.0
 }
 
 fn scale([x, y, z]: [f64; 3]) -> Placement {

@@ -138,7 +138,7 @@ impl<'a> Node<'a> {
         match self.value(field) {
             Some(Value::Numbers(numbers)) => numbers,
             _ => match self.node_type.field(field) {
-                Some(i) => self.node_type.fields[i].default,
+                Some(i) => &self.node_type.fields[i].default,
                 None => &[],
             },
         }

@@ -67,11 +67,10 @@ impl<'a> Lexer<'a> {
             None => Token::End,
             Some(b'"') => return self.string().map(|text| (start, Token::Text(text))),
             Some(mark @ (b'{' | b'}' | b'[' | b']')) => Token::Mark(self.take(1, mark)),
-            Some(first) => match (number_length(rest.as_bytes()), identifier_length(rest)) {
-                (0, 0) if first == b'.' => Token::Mark(self.take(1, first)),
-                (0, 0) => return Err(self.unexpected()),
-                (0, length) => Token::Identifier(self.take(length, &rest[..length])),
-                (length, _) => Token::Number(self.take(length, &rest[..length])),
+            Some(first) => match number_length(rest.as_bytes()) {
+                0 if first == b'.' => Token::Mark(self.take(1, first)),
+                0 => Token::Identifier(self.identifier()?),
+                length => Token::Number(self.take(length, &rest[..length])),
             },
         };
         Ok((start, token))
@@ -85,6 +84,14 @@ impl<'a> Lexer<'a> {
     fn take<T>(&mut self, length: usize, content: T) -> T {
         self.at += length;
         content
+    }
+
+    fn identifier(&mut self) -> Result<&'a str, Fault> {
+        let rest = self.rest();
+        match identifier_length(rest) {
+            0 => Err(self.unexpected()),
+            length => Ok(self.take(length, &rest[..length])),
+        }
     }
 
     fn unexpected(&self) -> Fault {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::extrusion::add_extrusion;
 use super::faces::Faces;
-use super::frame::{placement_of, placement_to_scene};
+use super::frame::{is_flat, placement_of, placement_to_scene};
 use super::graph::{Graph, Node, NodeId};
 use super::lexer::Fault;
 use super::material::{has_texture, material, material_node};
@@ -15,7 +15,7 @@ use crate::error::Problem;
 use crate::limits::Budget;
 use crate::placement::Placement;
 use crate::scene::Shape;
-use crate::shape_builder::ShapeBuilder;
+use crate::shape_builder::{ShapeBuilder, check_position};
 
 /// What is left out of, or different in, a subtree.
 pub(super) type Notes = BTreeSet<&'static str>;
@@ -31,6 +31,8 @@ pub(super) struct Shapes<'g, 'a> {
     graph: &'g Graph<'a>,
     pub(super) budget: Budget,
     shared: HashMap<(NodeId, usize), Arc<Built>>,
+    /// Rings dropped so far because fewer than three distinct vertices were left of them.
+    pub(super) degenerate_rings: usize,
 }
 
 /// A subtree at one level of detail.
@@ -46,9 +48,10 @@ pub(super) struct Subtree {
 #[derive(Debug)]
 pub(super) struct Built {
     pub(super) shape: Arc<Shape>,
-    pub(super) degenerate_rings: usize,
     pub(super) vertices: usize,
     pub(super) notes: Notes,
+    /// Corners of the box around it.
+    corners: [[f64; 3]; 8],
 }
 
 /// A subtree under way.
@@ -68,6 +71,7 @@ impl<'g, 'a> Shapes<'g, 'a> {
             graph,
             budget,
             shared: HashMap::new(),
+            degenerate_rings: 0,
         }
     }
 
@@ -82,6 +86,7 @@ impl<'g, 'a> Shapes<'g, 'a> {
         let mut walk = Walk::new(level, max_vertices, Some(Vec::new()));
         self.visit(root, placement, &mut walk)?;
         let instances = walk.instances.take().unwrap_or_default();
+        self.degenerate_rings += walk.builder.degenerate_rings;
         Ok(Subtree {
             own: walk.finish(),
             instances,
@@ -94,14 +99,9 @@ impl<'g, 'a> Shapes<'g, 'a> {
             return Ok(());
         }
         self.budget.objects(1).map_err(Fault::at(node.offset))?;
-        if node.shared && walk.instances.is_some() {
-            let built = self.shared(id, walk.level)?;
-            walk.notes.extend(&built.notes);
-            if let (Some(instances), false) = (&mut walk.instances, built.shape.surfaces.is_empty())
-            {
-                instances.push((built, placement_to_scene(placement)));
-            }
-            return Ok(());
+        // A shape that a placement flattens may have fewer vertices, so it is copied.
+        if node.shared && walk.instances.is_some() && !is_flat(placement) {
+            return self.add_instance(id, placement, walk);
         }
         if node.node_type.name == "Shape" {
             return self.add_shape(node, placement, walk);
@@ -111,6 +111,27 @@ impl<'g, 'a> Shapes<'g, 'a> {
         children
             .iter()
             .try_for_each(|child| self.visit(*child, &here, walk))
+    }
+
+    fn add_instance(
+        &mut self,
+        id: NodeId,
+        placement: &Placement,
+        walk: &mut Walk,
+    ) -> Result<(), Fault> {
+        let built = self.shared(id, walk.level)?;
+        walk.notes.extend(&built.notes);
+        if built.shape.surfaces.is_empty() {
+            return Ok(());
+        }
+        let placement = placement_to_scene(placement);
+        let mut corners = built.corners.iter().map(|corner| placement.apply(*corner));
+        let checked = corners.try_for_each(|corner| check_position(&corner));
+        checked.map_err(Fault::at(self.graph.node(id).offset))?;
+        if let Some(instances) = &mut walk.instances {
+            instances.push((built, placement));
+        }
+        Ok(())
     }
 
     /// The shape of a subtree that stands in several places, in its own frame.
@@ -131,6 +152,7 @@ impl<'g, 'a> Shapes<'g, 'a> {
                 }
             }
         }
+        self.degenerate_rings += walk.builder.degenerate_rings;
         let vertices = walk.builder.vertices;
         let spent = self.budget.instance_vertices(vertices);
         spent.map_err(Fault::at(node.offset))?;
@@ -200,12 +222,23 @@ impl Walk {
 
     fn finish(self) -> Built {
         Built {
+            corners: corners(&self.builder.shape),
             shape: Arc::new(self.builder.shape),
-            degenerate_rings: self.builder.degenerate_rings,
             vertices: self.builder.vertices,
             notes: self.notes,
         }
     }
+}
+
+/// The corners of the box around a shape.
+fn corners(shape: &Shape) -> [[f64; 3]; 8] {
+    let rings = shape.surfaces.iter().flat_map(|surface| &surface.rings);
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for position in rings.flatten() {
+        low = std::array::from_fn(|i| low[i].min(position[i]));
+        high = std::array::from_fn(|i| high[i].max(position[i]));
+    }
+    std::array::from_fn(|bits| std::array::from_fn(|i| [low[i], high[i]][bits >> i & 1]))
 }
 
 /// Adds the faces of a geometry node, and says what is different in them.

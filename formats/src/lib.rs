@@ -14,6 +14,7 @@ mod input;
 mod limits;
 mod obj;
 mod osm_pbf;
+mod packed;
 mod placement;
 mod ply;
 mod scene;
@@ -22,6 +23,7 @@ mod vrml;
 pub use error::{FormatError, Problem};
 pub use format::{Format, read, read_bytes};
 pub use input::{Input, ReadOptions, Sink};
+pub use packed::{PackedShape, pack, pack_shape, unpack, unpack_shape};
 pub use placement::Placement;
 pub use scene::{
     Changed, Feature, Geometry, Material, Model, Part, SceneDescription, Semantic, Shape, Skipped,

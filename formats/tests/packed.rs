@@ -107,7 +107,7 @@ fn small_shape() -> Shape {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..Default::default() })]
 
     #[test]
     fn shapes_come_back_bit_for_bit(shape in shape()) {
@@ -184,8 +184,7 @@ fn digests_tell_shapes_apart() {
         assert_ne!(digest(other), digest(&shape));
     }
     let stored = [
-        0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,
-        0x00,
+        157, 208, 137, 167, 245, 139, 27, 252, 162, 48, 252, 180, 177, 33, 21, 249,
     ];
     assert_eq!(
         digest(&shape),

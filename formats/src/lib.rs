@@ -20,6 +20,7 @@ mod ply;
 mod scene;
 mod vrml;
 
+pub use cityjson::{write_city_json, write_city_json_seq};
 pub use error::{FormatError, Problem};
 pub use format::{Format, read, read_bytes};
 pub use input::{Input, ReadOptions, Sink};

@@ -16,6 +16,7 @@ mod input;
 mod limits;
 mod obj;
 mod osm_pbf;
+mod packed;
 mod placement;
 mod ply;
 mod projection;
@@ -25,10 +26,12 @@ mod shape_builder;
 mod vrml;
 mod wkb;
 
+pub use cityjson::{write_city_json, write_city_json_seq};
 pub use error::{FormatError, Problem};
 pub use format::{Format, read, read_as, read_bytes};
 pub use gltf::{GlbError, delivered_positions, write_glb};
 pub use input::{Input, ReadOptions, Sink};
+pub use packed::{PackedShape, pack, pack_shape, unpack, unpack_shape};
 pub use placement::Placement;
 pub use scene::{
     Changed, Feature, Geometry, Material, Model, Part, SceneDescription, Semantic, Shape, Skipped,

@@ -16,5 +16,7 @@ mod reader;
 mod semantics;
 mod templates;
 mod vertices;
+mod writer;
 
 pub(crate) use reader::read;
+pub use writer::{write_city_json, write_city_json_seq};

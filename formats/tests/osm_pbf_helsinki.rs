@@ -45,3 +45,34 @@ fn helsinki() {
     println!("{:?}", start.elapsed());
     report(&scene);
 }
+
+#[test]
+fn details() {
+    let bytes = std::fs::read("/work/shared/data/helsinki.osm.pbf").unwrap();
+    let scene = read_bytes("h", &bytes, &ReadOptions::default()).unwrap();
+    for s in &scene.skipped {
+        if s.why.starts_with("the top") || s.why.contains("crosses") || s.why.contains("no area") {
+            println!("{s:?}");
+        }
+    }
+    for c in &scene.changed {
+        println!("{c:?}");
+    }
+    for f in &scene.features {
+        let shapes: Vec<_> = f
+            .attributes
+            .as_object()
+            .unwrap()
+            .iter()
+            .filter(|(k, _)| {
+                k.starts_with("roof") || k.as_str() == "height" || k.contains("levels")
+            })
+            .collect();
+        if f.geometries[0].level_of_detail == 2.0 {
+            println!("{} {shapes:?}", f.name);
+            for p in &f.parts {
+                println!("   {} {}", p.name, p.attributes);
+            }
+        }
+    }
+}

@@ -9,6 +9,7 @@ mod footprint;
 mod frame;
 mod length;
 mod roof;
+mod street_width;
 mod strip;
 
 pub(crate) use appearance::Appearance;
@@ -16,6 +17,7 @@ pub(crate) use extruded::{Extruded, Top};
 pub(crate) use footprint::{Footprint, is_inside, line_string};
 pub(crate) use length::{MAX_HEIGHT, length};
 pub(crate) use roof::{Rise, Roof, RoofShape};
+pub(crate) use street_width::{STREET_WIDTHS, street_width};
 pub(crate) use strip::{Ends, strips};
 
 /// Height of a storey where only storeys are counted, metres.

@@ -11,6 +11,8 @@ mod length;
 mod roof;
 mod street_width;
 mod strip;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use appearance::Appearance;
 pub(crate) use extruded::{Extruded, Top};

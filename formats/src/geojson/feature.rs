@@ -159,7 +159,7 @@ impl Object<'_> {
             let (solid, _) = Extruded::new(&area.footprint, bottom, top, None)?;
             Ok((solid, base > 0.0))
         };
-        let solids = areas.iter().map(solid).collect::<Result<_, _>>()?;
+        let solids = areas.iter().map(solid).collect::<Result<_, &str>>()?;
         let feature = Feature {
             name: self.name.to_owned(),
             class: self.class.clone(),

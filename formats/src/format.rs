@@ -1,7 +1,7 @@
 //! [`Format`], and which of them a file is in.
 
 use std::fmt;
-use std::io::{self, BufRead, Cursor, Read, Seek, SeekFrom};
+use std::io::{self, Cursor, Read, SeekFrom};
 use std::ops::ControlFlow;
 
 use crate::error::{FormatError, Location};

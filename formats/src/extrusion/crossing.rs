@@ -98,9 +98,9 @@ mod tests {
 
     #[test]
     fn an_outline_that_would_take_too_long_is_refused() {
-        let comb = (0..3000)
-            .map(|i| [f64::from(i % 2) * 1e3, f64::from(i)])
-            .collect();
+        let tooth = |i| [f64::from(i % 2) * 1e3, f64::from(i)];
+        let back = [[-1.0, 3000.0], [-1.0, 0.0]];
+        let comb = (0..3000).map(tooth).chain(back).collect();
         assert_eq!(fault(&[comb]), Some("the outline is too intricate"));
     }
 }

@@ -17,6 +17,9 @@ const MAX_TOUCHES: usize = 16;
 /// Smallest area, square metres: below, rounding decides what is inside.
 const MIN_AREA: f64 = 1e-4;
 
+/// Why rings without an area are no footprint.
+pub(super) const NO_AREA: &str = "the outline has no area";
+
 /// An area in plan: rings that do not cross, holes inside the outer one.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Footprint {
@@ -34,7 +37,7 @@ impl Footprint {
         if holes.len() > MAX_HOLES {
             return Err("the outline has more than 1000 holes");
         }
-        let outer = turned(cleaned(outer), 1.0).ok_or("the outline has no area")?;
+        let outer = turned(cleaned(outer), 1.0).ok_or(NO_AREA)?;
         let holes = holes
             .into_iter()
             .map(cleaned)

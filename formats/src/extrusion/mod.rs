@@ -9,13 +9,17 @@ mod footprint;
 mod frame;
 mod length;
 mod roof;
+mod street_width;
 mod strip;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use appearance::Appearance;
 pub(crate) use extruded::{Extruded, Top};
 pub(crate) use footprint::{Footprint, is_inside, line_string};
 pub(crate) use length::{MAX_HEIGHT, length};
 pub(crate) use roof::{Rise, Roof, RoofShape};
+pub(crate) use street_width::{STREET_WIDTHS, street_width};
 pub(crate) use strip::{Ends, strips};
 
 /// Height of a storey where only storeys are counted, metres.

@@ -3,7 +3,7 @@
 use geo::algorithm::buffer::{Buffer, BufferStyle, LineCap, LineJoin};
 use geo::{LineString, MultiLineString, Polygon};
 
-use super::footprint::line_string;
+use super::footprint::{NO_AREA, line_string};
 use super::{Footprint, Plan};
 
 /// Most vertices of a line.
@@ -51,9 +51,11 @@ pub(crate) fn strips(
     };
     let areas = MultiLineString::new(lines).buffer_with_style(style);
     let areas = areas.into_iter().map(|area| footprint(&area, origin));
+    // Slivers between bends have no area, and are no loss.
+    let areas = areas.filter(|area| *area != Err(NO_AREA));
     let areas: Vec<_> = areas.collect::<Result<_, _>>()?;
     match areas.is_empty() {
-        true => Err("the line has no area"),
+        true => Err(NO_AREA),
         false => Ok(areas),
     }
 }

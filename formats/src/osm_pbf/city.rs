@@ -86,10 +86,10 @@ impl<'a> Element<'a> {
         }
     }
 
-    fn lines(&self, plans: &Plans<'_>) -> Vec<Vec<Plan>> {
+    fn lines(&self, plans: &Plans<'_>) -> Result<Vec<Vec<Plan>>, &'static str> {
         match self.form {
             Form::Way(nodes) => plans.lines(nodes),
-            Form::Relation(_) => Vec::new(),
+            Form::Relation(_) => Err("a relation of a kind that is no area"),
         }
     }
 
@@ -183,7 +183,7 @@ impl<'a> City<'a> {
         }
         let areas = match element.kind {
             Kind::Square => element.areas(&self.plans)?,
-            _ => street::area(element.tags, &element.lines(&self.plans))?,
+            _ => street::area(element.tags, &element.lines(&self.plans)?)?,
         };
         let surface = |area: &Footprint| Surface {
             rings: area.at(0.0),
@@ -201,7 +201,7 @@ impl<'a> City<'a> {
             element.areas(&self.plans)?
         } else {
             let width = structure::wall_width(element.tags);
-            strips(&element.lines(&self.plans), width, Ends::Square)?
+            strips(&element.lines(&self.plans)?, width, Ends::Square)?
         };
         let solids = structure::solids(element.kind, element.tags, &areas)?;
         Ok(Feature {

@@ -10,6 +10,9 @@ use crate::extrusion::{Footprint, Plan, is_inside, line_string};
 /// Most outer rings of one relation: each hole is compared with each.
 const MAX_OUTER_RINGS: usize = 1000;
 
+/// Why an element at the edge of an extract has no form.
+const MISSING_NODE: &str = "a node is missing";
+
 /// Where nodes and ways are.
 pub(super) struct Plans<'a> {
     nodes: HashMap<i64, Plan>,
@@ -64,18 +67,22 @@ impl<'a> Plans<'a> {
     }
 
     /// A way in pieces: nodes outside of an extract are missing.
-    pub(super) fn lines(&self, nodes: &[i64]) -> Vec<Vec<Plan>> {
+    pub(super) fn lines(&self, nodes: &[i64]) -> Result<Vec<Vec<Plan>>, &'static str> {
         let places: Vec<_> = nodes
             .iter()
             .map(|node| self.nodes.get(node).copied())
             .collect();
         let pieces = places.split(Option::is_none);
         let pieces = pieces.map(|piece| piece.iter().flatten().copied().collect::<Vec<_>>());
-        pieces.filter(|piece| piece.len() >= 2).collect()
+        let pieces: Vec<_> = pieces.filter(|piece| piece.len() >= 2).collect();
+        match pieces.is_empty() && places.contains(&None) {
+            true => Err(MISSING_NODE),
+            false => Ok(pieces),
+        }
     }
 
     fn ring(&self, nodes: &[i64]) -> Result<Vec<Plan>, &'static str> {
-        let place = |node| self.nodes.get(node).copied().ok_or("a node is missing");
+        let place = |node| self.nodes.get(node).copied().ok_or(MISSING_NODE);
         nodes.iter().map(place).collect()
     }
 

@@ -1,51 +1,13 @@
 //! How wide streets are.
 
 use super::tags::Tags;
-use crate::extrusion::{Ends, Footprint, Plan, strips};
-
-/// Widths that are believed, metres.
-const WIDTHS: std::ops::RangeInclusive<f64> = 0.5..=100.0;
+use crate::extrusion::{Ends, Footprint, Plan, STREET_WIDTHS, street_width, strips};
 
 /// Width of a lane where only lanes are counted, metres.
 const LANE: f64 = 3.0;
 
 /// Width of a pavement beside counted lanes, metres.
 const PAVEMENT: f64 = 2.0;
-
-/// Widths of streets of which only the kind is known, metres.
-const WIDTHS_BY_KIND: [(f64, &[&str]); 9] = [
-    (12.0, &["motorway"]),
-    (10.0, &["trunk", "primary"]),
-    (8.0, &["secondary"]),
-    (7.0, &["tertiary", "busway"]),
-    (
-        6.0,
-        &[
-            "residential",
-            "unclassified",
-            "road",
-            "motorway_link",
-            "trunk_link",
-            "primary_link",
-            "secondary_link",
-            "tertiary_link",
-        ],
-    ),
-    (5.0, &["living_street", "pedestrian"]),
-    (4.0, &["service"]),
-    (3.0, &["track", "platform"]),
-    (
-        2.0,
-        &[
-            "footway",
-            "cycleway",
-            "path",
-            "steps",
-            "bridleway",
-            "crossing",
-        ],
-    ),
-];
 
 /// Why nobody is in the open air on a street or square; none where people are.
 pub(super) fn hidden(tags: &Tags) -> Option<&'static str> {
@@ -74,22 +36,18 @@ pub(super) fn area(tags: &Tags, lines: &[Vec<Plan>]) -> Result<Vec<Footprint>, &
 
 /// The width of a street; none for what is no street.
 fn width(tags: &Tags) -> Option<f64> {
-    let kind = tags.get("highway")?;
-    let (by_kind, _) = WIDTHS_BY_KIND
-        .iter()
-        .find(|(_, kinds)| kinds.contains(&kind))?;
-    let said = |key| tags.length(key).filter(|width| WIDTHS.contains(width));
+    let by_kind = street_width(tags.get("highway")?)?;
+    let said = |key| {
+        tags.length(key)
+            .filter(|width| STREET_WIDTHS.contains(width))
+    };
     let counted = || {
         let lanes = tags.length("lanes").map(|lanes| lanes * LANE)?;
         let width = lanes + pavements(tags) * PAVEMENT;
-        (lanes > 0.0 && WIDTHS.contains(&width)).then_some(width)
+        (lanes > 0.0 && STREET_WIDTHS.contains(&width)).then_some(width)
     };
-    Some(
-        said("width")
-            .or_else(|| said("est_width"))
-            .or_else(counted)
-            .unwrap_or(*by_kind),
-    )
+    let said = said("width").or_else(|| said("est_width"));
+    Some(said.or_else(counted).unwrap_or(by_kind))
 }
 
 /// How many pavements are said to be beside the lanes.

@@ -140,22 +140,32 @@ mod tests {
         assert_near(32735, [27.0, 0.0], [500_000.0, 10_000_000.0], 1e-6);
     }
 
-    /// The origin of the Dutch grid, by the published transformation of seven parameters, whose
-    /// accuracy is 0.25 m.
+    /// Values of Krüger's series of sixth order, computed apart from the library.
     #[test]
-    fn the_dutch_grid_has_its_origin_in_amersfoort() {
-        assert_near(
-            28992,
-            [5.387_206_21, 52.155_174_40],
-            [155_000.0, 463_000.0],
-            0.5,
-        );
-        assert_near(
-            7415,
-            [5.387_206_21, 52.155_174_40],
-            [155_000.0, 463_000.0],
-            0.5,
-        );
+    fn utm_agrees_with_the_series_off_the_meridian() {
+        for (from, expected) in [
+            ([24.9384, 60.1699], [385_611.316_69, 6_672_118.380_33]),
+            ([24.0, 60.0], [332_705.178_88, 6_655_205.483_63]),
+            ([30.0, 45.0], [736_446.026_10, 4_987_329.504_70]),
+        ] {
+            assert_near(32635, from, expected, 1e-4);
+        }
+    }
+
+    /// Points that the Dutch cadastre publishes to validate transformations. The seven parameters
+    /// of the definition, without a grid of corrections, are within 0.25 m of them.
+    #[test]
+    fn the_dutch_grid_agrees_with_published_points() {
+        for (from, expected) in [
+            ([5.387_203_657, 52.155_172_897], [155_000.0, 463_000.0]),
+            ([4.824_761_912, 53.160_753_042], [117_380.12, 575_040.34]),
+            ([6.776_726_674, 53.419_482_050], [247_380.56, 604_580.78]),
+            ([3.397_588_595, 51.368_607_152], [16_460.91, 377_380.23]),
+            ([5.773_795_548, 50.792_584_916], [182_260.45, 311_480.67]),
+        ] {
+            assert_near(28992, from, expected, 0.25);
+            assert_near(7415, from, expected, 0.25);
+        }
     }
 
     #[test]

@@ -34,6 +34,8 @@ impl Format {
     pub fn recognise(start: &[u8]) -> Option<Self> {
         let text = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
         match text.iter().find(|byte| !byte.is_ascii_whitespace()) {
+            _ if start.starts_with(b"glTF") => Some(Self::Gltf),
+            Some(b'{') if gltf::is_document(text) => Some(Self::Gltf),
             Some(b'{') => Some(Self::CityJson),
             _ => None,
         }

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use serde::Deserialize;
 use serde_json::value::RawValue;
 
-use super::color::encoded;
+use super::color::{encoded, settled};
 use super::weight::check_name;
 use crate::error::Problem;
 use crate::scene::Material;
@@ -97,7 +97,7 @@ impl ReadMaterial<'_> {
         let surface = &self.pbr_metallic_roughness;
         let [red, green, blue, alpha] = surface.base_color_factor;
         let transparency = if self.alpha_mode == "BLEND" {
-            1.0 - alpha.clamp(0.0, 1.0)
+            settled(1.0 - alpha.clamp(0.0, 1.0))
         } else {
             0.0
         };

@@ -1,7 +1,5 @@
 //! A feature that is put together from the nodes of a subtree.
 
-use std::collections::HashSet;
-
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 
@@ -28,8 +26,8 @@ pub(super) struct FeatureBuilder {
     pub(super) losses: Losses,
     pub(super) skinned: bool,
     pub(super) flattened: bool,
-    /// Names of the feature's parts.
-    pub(super) parts: HashSet<String>,
+    /// Whether the node had a record, so that nodes below name parts.
+    pub(super) recorded: bool,
 }
 
 impl FeatureBuilder {
@@ -54,7 +52,7 @@ impl FeatureBuilder {
             losses: Losses::default(),
             skinned: false,
             flattened: false,
-            parts: HashSet::new(),
+            recorded: record.feature.is_some(),
         };
         check_name("the name of a feature", &builder.feature.name)?;
         match &record.feature {
@@ -93,7 +91,6 @@ impl FeatureBuilder {
             check_name("the name of a part", name)?;
             check_name("the class of a part", class)?;
             check_object("the attributes of a part", attributes)?;
-            self.parts.insert(name.clone());
         }
         Ok(())
     }

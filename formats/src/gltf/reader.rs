@@ -13,6 +13,7 @@ use super::feature::FeatureBuilder;
 use super::node::Node;
 use super::record::NodeRecord;
 use super::shapes::{Losses, check_position, read_shape};
+use super::weight::check_name;
 use crate::error::{FormatError, Location, Problem};
 use crate::input::{Input, ReadOptions, Sink};
 use crate::limits::{Budget, Limits, MAX_NESTING};
@@ -222,10 +223,9 @@ impl<'a> Reader<'_, 'a> {
         builder: &mut FeatureBuilder,
     ) -> Result<(), Problem> {
         let mut place = self.enter(number, node, above)?;
-        if let Some(part) = NodeRecord::of(node.extras)
-            .part
-            .filter(|part| builder.parts.contains(&**part))
-        {
+        let part = NodeRecord::of(node.extras).part;
+        if let Some(part) = part.filter(|_| builder.recorded) {
+            check_name("the name of a part", &part)?;
             place.part = Some(part.into());
         }
         if let Some(mesh) = node.mesh {

@@ -1,19 +1,17 @@
 //! What is written as GLB is read back.
 
-mod common;
 mod gltf_scenes;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use common::real_file;
 use formats::{
     Feature, Geometry, Material, Model, ReadOptions, SceneDescription, Shape, Surface,
     delivered_positions, read_bytes, write_glb,
 };
 use gltf_scenes::{
-    FAR, box_surfaces, building, courtyard, geometry, instances, model, painted, placements, shape,
-    surface, thousand,
+    FAR, box_surfaces, building, courtyard, delft, geometry, instances, model, painted, placements,
+    shape, surface, thousand,
 };
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -151,26 +149,9 @@ fn features_come_back() {
 
 #[test]
 fn a_real_city_comes_back() {
-    let scene = real_file("delft.city.jsonl").map(|bytes| {
-        read_bytes("delft.city.jsonl", &bytes, &ReadOptions::default()).expect("a city")
-    });
-    let models = scene.map_or_else(thousand, |scene| best_models(scene.features));
+    let models = delft();
     assert!(models.len() >= 1000);
     check_all(&models);
-}
-
-/// Features with the geometries of their highest level of detail alone.
-fn best_models(features: Vec<Feature>) -> Vec<Model> {
-    let best = |mut feature: Feature| {
-        let levels = feature.geometries.iter().map(|g| g.level_of_detail);
-        let best = levels.fold(0.0, f64::max);
-        feature.geometries.retain(|g| g.level_of_detail == best);
-        feature
-    };
-    let features = features.into_iter().map(best).zip(1..);
-    features
-        .map(|(feature, id)| Model { id, feature })
-        .collect()
 }
 
 #[test]

@@ -109,3 +109,27 @@ fn decode(what: &str, data: &str) -> Result<Vec<u8>, Problem> {
         message: shorten(&error.to_string().to_lowercase()),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn input_is_limited() {
+        assert_eq!(check_total(MAX_INPUT_BYTES), Ok(()));
+        assert_eq!(
+            check_total(MAX_INPUT_BYTES + 1).unwrap_err().to_string(),
+            "402653185 bytes of input exceed the limit of 402653184"
+        );
+    }
+
+    #[test]
+    fn data_uris_are_base64_or_percent_encoded() {
+        assert_eq!(decode("buffer 0", ";base64,AQID"), Ok(vec![1, 2, 3]));
+        assert_eq!(
+            decode("buffer 0", "application/octet-stream;base64,AQ"),
+            Ok(vec![1])
+        );
+        assert_eq!(decode("buffer 0", ",a%00"), Ok(vec![b'a', 0]));
+    }
+}

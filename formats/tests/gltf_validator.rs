@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use formats::{Model, write_glb};
-use gltf_scenes::{FAR, building, courtyard, instances, model, painted, thousand};
+use gltf_scenes::{FAR, building, courtyard, delft, instances, model, painted, thousand};
 
 /// A folder of a test's own, gone at its end.
 struct Folder(PathBuf);
@@ -44,13 +44,14 @@ fn written_files_are_valid() {
     let mut everything = thousand();
     everything.extend(instances());
     everything.extend([painted(-1), courtyard(-2), model(-3, Vec::new())]);
-    let scenes: [(&str, Vec<Model>, Option<i32>); 7] = [
+    let scenes: [(&str, Vec<Model>, Option<i32>); 8] = [
         ("empty", Vec::new(), None),
         ("empty with srid", Vec::new(), Some(28992)),
         ("box", vec![building(7, FAR)], Some(28992)),
         ("materials", vec![painted(1)], None),
         ("holes", vec![courtyard(2)], None),
         ("instances", instances(), None),
+        ("delft", delft(), Some(7415)),
         ("everything", everything, Some(7415)),
     ];
     let folder = Folder::new("gltf-validator");

@@ -54,27 +54,35 @@ pub(super) fn unpack(file: &[u8]) -> Result<(&[u8], Option<&[u8]>), Problem> {
     let (length, _) = word("the length", rest)?;
     let file = file.get(..length as usize).ok_or_else(|| cut("the file"))?;
     let chunks = file.get(FILE_HEADER..).unwrap_or_default();
-    let (kind, json, rest) = chunk(chunks)?;
-    if kind != JSON {
+    let (json, rest) = chunk(chunks)?;
+    if json.kind != JSON {
         return Err(Problem::Missing {
             what: "the json chunk".to_owned(),
         });
     }
     if rest.is_empty() {
-        return Ok((json, None));
+        return Ok((json.content, None));
     }
-    let (kind, binary, _) = chunk(rest)?;
-    Ok((json, (kind == BINARY).then_some(binary)))
+    let (binary, _) = chunk(rest)?;
+    Ok((
+        json.content,
+        (binary.kind == BINARY).then_some(binary.content),
+    ))
 }
 
-/// The first chunk: its type, its content, and what follows it.
-fn chunk(bytes: &[u8]) -> Result<(&[u8], &[u8], &[u8]), Problem> {
+struct Chunk<'a> {
+    kind: &'a [u8],
+    content: &'a [u8],
+}
+
+/// The first chunk, and what follows it.
+fn chunk(bytes: &[u8]) -> Result<(Chunk<'_>, &[u8]), Problem> {
     let (length, rest) = word("a chunk", bytes)?;
     let (kind, rest) = rest.split_at_checked(4).ok_or_else(|| cut("a chunk"))?;
     let (content, rest) = rest
         .split_at_checked(length as usize)
         .ok_or_else(|| cut("a chunk"))?;
-    Ok((kind, content, rest))
+    Ok((Chunk { kind, content }, rest))
 }
 
 fn word<'a>(what: &str, bytes: &'a [u8]) -> Result<(u32, &'a [u8]), Problem> {

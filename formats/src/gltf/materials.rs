@@ -67,7 +67,11 @@ fn written(material: &Material) -> Value {
 
 /// Within 0 to 1; NaN becomes 0.
 fn share(value: f64) -> f64 {
-    value.max(0.0).min(1.0)
+    if value.is_nan() {
+        0.0
+    } else {
+        value.clamp(0.0, 1.0)
+    }
 }
 
 #[cfg(test)]

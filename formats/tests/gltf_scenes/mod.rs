@@ -2,9 +2,13 @@
 // Each test binary uses its own part of this module.
 #![allow(dead_code)]
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use formats::{Feature, Geometry, Material, Model, Part, Placement, Semantic, Shape, Surface};
+use formats::{
+    Feature, Geometry, Material, Model, Part, Placement, ReadOptions, Semantic, Shape, Surface,
+    read_bytes,
+};
 use serde_json::json;
 
 /// A corner of the Netherlands, where f32 alone would be 3 cm off.
@@ -201,4 +205,25 @@ pub fn thousand() -> Vec<Model> {
         ]
     };
     (0..1000).map(|i| building(i, place(i))).collect()
+}
+
+/// The buildings of Delft at their highest level of detail, if the file is there; else a thousand
+/// boxes.
+pub fn delft() -> Vec<Model> {
+    let beside_workspace = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
+    let folder = std::env::var_os("PG_OCCLUSION_DATA").map_or_else(beside_workspace, PathBuf::from);
+    let Ok(bytes) = std::fs::read(folder.join("delft.city.jsonl")) else {
+        return thousand();
+    };
+    let scene = read_bytes("delft.city.jsonl", &bytes, &ReadOptions::default()).expect("a city");
+    let best = |mut feature: Feature| {
+        let levels = feature.geometries.iter().map(|g| g.level_of_detail);
+        let best = levels.fold(0.0, f64::max);
+        feature.geometries.retain(|g| g.level_of_detail == best);
+        feature
+    };
+    let features = scene.features.into_iter().map(best).zip(1..);
+    features
+        .map(|(feature, id)| Model { id, feature })
+        .collect()
 }

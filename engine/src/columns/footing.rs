@@ -58,6 +58,17 @@ impl<'a> Footing<'a> {
                     return prism(&outline, bottom, top).into_iter().collect();
                 }
             }
+            if std::env::var("DBG").is_ok() {
+                match outline.straightened().map(|o| o.pulled(pull)).and_then(|o| Cells::new(&o, &[])) {
+                    None => eprintln!("pull {pull} no cells, area {} corners {}", outline.area(), outline.rings.concat().len()),
+                    Some(cells) => {
+                        let bad: Vec<bool> = cells.proven(bottom, top, certificate);
+                        let area = |t: &[usize;3]| { let p = t.map(|i| cells.corners[i].place); (p[1]-p[0]).perp_dot(p[2]-p[0])/2.0 };
+                        let lost: f64 = cells.triangles.iter().zip(&bad).filter(|x| !x.1).map(|x| area(x.0)).sum();
+                        eprintln!("pull {pull} bad {} of {} area {lost} of {}", bad.iter().filter(|b| !**b).count(), bad.len(), outline.area());
+                    }
+                }
+            }
             pull *= 2.0;
             shrink = pull;
         }

@@ -38,6 +38,10 @@ use crate::{GROUND_TOLERANCE, MeshDefect, SolidColumn, TriangleMesh};
 /// whatever the options, so that their search ends.
 const LEAST_GAIN: f64 = 1e-5;
 
+/// A level is tried if it adds this part of what a column must: steps are then at nearly the best
+/// heights for each connected piece.
+const LEVEL_GAIN: f64 = 0.5;
+
 /// The columns of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolidColumns {
@@ -69,7 +73,8 @@ pub fn solid_columns(
         return Err(MeshDefect::NotFinite);
     }
     let facets = Facets::new(mesh);
-    let levels = levels::levels(&facets, [envelope.min.z, envelope.max.z]);
+    let least_gain = LEVEL_GAIN * options.least_gain.max(LEAST_GAIN) * mesh.signed_volume().abs();
+    let levels = levels::levels(&facets, [envelope.min.z, envelope.max.z], least_gain);
     let plan = Plan::new(mesh, &facets, &levels)?;
     let stretches = stacks(&plan, &facets, &levels)?;
     let mut search = Search {
@@ -81,6 +86,17 @@ pub fn solid_columns(
         covered: 0.0,
         columns: Vec::new(),
     };
+    if std::env::var("DBG").is_ok() {
+        let v = search.volume;
+        let lv = |i: usize| levels.get(i).copied().unwrap_or(f64::NAN);
+        let low: f64 = stretches.iter().filter(|s| s.from == 0).map(|s| s.volume).sum();
+        let reach: f64 = stretches.iter().filter(|s| s.from == 0).map(|s| s.area * (lv(s.to) - lv(0))).sum();
+        eprintln!("V {v:.1} mesh {:.1} foot {:.4} reach {:.4} levels {} tris {} facets {} foot {} range {:?}", mesh.signed_volume(), low / v, reach / v, levels.len(), plan.triangles.len(), facets.list.len(), levels[0], (envelope.min.z, envelope.max.z));
+        if reach / v < 0.93 { eprintln!("   {levels:?}");
+          let mut by = std::collections::BTreeMap::new();
+          for s in &stretches { *by.entry((s.from, s.to)).or_insert(0.0) += s.volume / v; }
+          eprintln!("   {by:?}"); }
+    }
     search.run(stretches, options);
     if search.columns.is_empty() {
         return Err(why_no_seed(mesh, &envelope));

@@ -72,11 +72,15 @@ pub fn solid_columns(
     if !envelope.size().is_finite() {
         return Err(MeshDefect::NotFinite);
     }
+    let t0 = std::time::Instant::now();
     let facets = Facets::new(mesh);
     let least_gain = LEVEL_GAIN * options.least_gain.max(LEAST_GAIN) * mesh.signed_volume().abs();
     let levels = levels::levels(&facets, [envelope.min.z, envelope.max.z], least_gain);
+    let t1 = std::time::Instant::now();
     let plan = Plan::new(mesh, &facets, &levels)?;
+    let t2 = std::time::Instant::now();
     let stretches = stacks(&plan, &facets, &levels)?;
+    let t3 = std::time::Instant::now();
     let mut search = Search {
         plan: &plan,
         levels: &levels,
@@ -98,6 +102,9 @@ pub fn solid_columns(
           eprintln!("   {by:?}"); }
     }
     search.run(stretches, options);
+    if std::env::var("DBG").is_ok() {
+        eprintln!("T {} {} {} {}", (t1-t0).as_micros(), (t2-t1).as_micros(), (t3-t2).as_micros(), t3.elapsed().as_micros());
+    }
     if search.columns.is_empty() {
         return Err(why_no_seed(mesh, &envelope));
     }

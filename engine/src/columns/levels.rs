@@ -29,7 +29,9 @@ pub fn levels(facets: &Facets, [low, high]: [f64; 2], least_gain: f64) -> Vec<f6
         facets.filter(move |facet| facet.is_broad && facet.faces == faces)
     };
     let undersides = || broad(-1).map(|facet| facet.corners.map(|corner| corner.z));
-    let feet = undersides().flatten().filter(|&z| z <= low + GROUND_TOLERANCE);
+    let feet = undersides()
+        .flatten()
+        .filter(|&z| z <= low + GROUND_TOLERANCE);
     let foot = feet.fold(low, f64::max);
     let roofs: Vec<Slope> = broad(1).map(|facet| Slope::new(facet, 1.0)).collect();
     let undersides = broad(-1).filter(|facet| facet.heights()[1] > foot);
@@ -109,7 +111,10 @@ fn candidates(slopes: &[Slope], [from, to]: [f64; 2]) -> Vec<f64> {
         }
         gap *= 2.0;
     }
-    if slopes.iter().any(|slope| slope.heights[0] < slope.heights[2]) {
+    if slopes
+        .iter()
+        .any(|slope| slope.heights[0] < slope.heights[2])
+    {
         let step = (to - from) / EVEN as f64;
         corners.extend((1..EVEN).map(|i| from + step * i as f64));
         corners.sort_unstable_by(f64::total_cmp);

@@ -12,20 +12,22 @@
 //! Nothing of this is trusted: each column is divided into cells and given out only where every
 //! cell is proven to be solid ([`certificate`]).
 
+mod cells;
 mod certificate;
 mod facets;
-mod footing;
 mod levels;
 mod options;
 mod outline;
 mod plan;
+mod prism;
 mod stacks;
 mod staircase;
 
 use certificate::Certificate;
 use facets::Facets;
-use footing::Footing;
+
 use plan::Plan;
+use prism::prisms;
 use stacks::{Stretch, stacks};
 use staircase::{Goal, Staircase};
 
@@ -34,8 +36,8 @@ pub use options::ColumnOptions;
 use crate::mesh::why_no_seed;
 use crate::{GROUND_TOLERANCE, MeshDefect, SolidColumn, TriangleMesh};
 
-/// A pieces's volume below this share of the solid is nothing: columns are not sought there,
-/// whatever the options, so that their search ends.
+/// Columns that add less than this share of the solid volume are not sought, whatever the options,
+/// so that their search ends.
 const LEAST_GAIN: f64 = 1e-5;
 
 /// A level is tried if it adds this part of what a column must: steps are then at nearly the best
@@ -72,15 +74,11 @@ pub fn solid_columns(
     if !envelope.size().is_finite() {
         return Err(MeshDefect::NotFinite);
     }
-    let t0 = std::time::Instant::now();
     let facets = Facets::new(mesh);
     let least_gain = LEVEL_GAIN * options.least_gain.max(LEAST_GAIN) * mesh.signed_volume().abs();
     let levels = levels::levels(&facets, [envelope.min.z, envelope.max.z], least_gain);
-    let t1 = std::time::Instant::now();
     let plan = Plan::new(mesh, &facets, &levels)?;
-    let t2 = std::time::Instant::now();
     let stretches = stacks(&plan, &facets, &levels)?;
-    let t3 = std::time::Instant::now();
     let mut search = Search {
         plan: &plan,
         levels: &levels,
@@ -90,22 +88,8 @@ pub fn solid_columns(
         covered: 0.0,
         columns: Vec::new(),
     };
-    if std::env::var("DBG").is_ok() {
-        let v = search.volume;
-        let lv = |i: usize| levels.get(i).copied().unwrap_or(f64::NAN);
-        let low: f64 = stretches.iter().filter(|s| s.from == 0).map(|s| s.volume).sum();
-        let reach: f64 = stretches.iter().filter(|s| s.from == 0).map(|s| s.area * (lv(s.to) - lv(0))).sum();
-        eprintln!("V {v:.1} mesh {:.1} foot {:.4} reach {:.4} levels {} tris {} facets {} foot {} range {:?}", mesh.signed_volume(), low / v, reach / v, levels.len(), plan.triangles.len(), facets.list.len(), levels[0], (envelope.min.z, envelope.max.z));
-        if reach / v < 0.93 { eprintln!("   {levels:?}");
-          let mut by = std::collections::BTreeMap::new();
-          for s in &stretches { *by.entry((s.from, s.to)).or_insert(0.0) += s.volume / v; }
-          eprintln!("   {by:?}"); }
-    }
     search.run(stretches, options);
-    if std::env::var("DBG").is_ok() {
-        eprintln!("T {} {} {} {}", (t1-t0).as_micros(), (t2-t1).as_micros(), (t3-t2).as_micros(), t3.elapsed().as_micros());
-    }
-    if search.columns.is_empty() {
+    if search.columns.is_empty() && options.most > 0 || search.volume <= 0.0 {
         return Err(why_no_seed(mesh, &envelope));
     }
     Ok(SolidColumns {
@@ -136,21 +120,24 @@ impl Search<'_> {
             && self.columns.len() < options.most
             && self.covered < self.volume * options.share
         {
-            let (reached, others) = left
+            let (reached, mut others): (Vec<Stretch>, Vec<Stretch>) = left
                 .into_iter()
                 .partition(|stretch| stretch.from <= from && from < stretch.to);
-            left = others;
             self.fill(from, &reached, least_gain, options);
+            let below = reached.iter().filter(|stretch| stretch.from < from);
+            others.extend(below.map(|stretch| stretch.up_to(from, self.levels)));
+            left = others;
             bottom = self.best_bottom(&left, least_gain);
         }
     }
 
     /// The level from which most of the stretches' volume is reached.
     fn best_bottom(&self, left: &[Stretch], least_gain: f64) -> Option<usize> {
-        let mut reached = vec![0.0; self.levels.len()];
+        let mut reached: Vec<f64> = vec![0.0; self.levels.len()];
         for stretch in left {
-            for level in stretch.from..stretch.to {
-                reached[level] += stretch.area * (self.levels[stretch.to] - self.levels[level]);
+            let inside = reached.iter_mut().zip(self.levels).take(stretch.to);
+            for (volume, level) in inside.skip(stretch.from) {
+                *volume += stretch.area * (self.levels[stretch.to] - level);
             }
         }
         let (best, volume) = reached
@@ -165,7 +152,7 @@ impl Search<'_> {
         let goal = Goal {
             enough: options.share * reached.iter().map(|stretch| stretch.volume).sum::<f64>(),
             least_gain: least,
-            most: options.most - self.columns.len(),
+            most: options.most.saturating_sub(self.columns.len()),
         };
         let bottom = self.levels[from];
         let staircase = Staircase::new(self.plan, self.levels, from, reached);
@@ -175,9 +162,12 @@ impl Search<'_> {
         for step in steps {
             let below = step.below.map_or(bottom, |below| tops[below]);
             let triangles = staircase.triangles(step.piece);
-            let footing = Footing::new(self.plan, &triangles);
             let mut top = below;
-            for prism in footing.prisms([bottom, self.levels[step.level]], &mut self.certificate) {
+            let heights = [bottom, self.levels[step.level]];
+            for prism in prisms(self.plan, &triangles, heights, &mut self.certificate) {
+                if self.columns.len() == options.most {
+                    return;
+                }
                 self.covered += prism.area * (prism.top - below).max(0.0);
                 top = prism.top;
                 self.columns.push(SolidColumn {

@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use geo::{Coord, LineString, Polygon};
 use glam::DVec2;
 
-use super::plan::Plan;
 use crate::predicates::turn;
 
 /// A computed corner this close to the line between its neighbours is left out, metres: it is on
@@ -33,16 +32,14 @@ pub struct Outline {
 
 impl Outline {
     /// The outline of triangles that hang together by edges; `None` when they have no area.
-    pub fn around(plan: &Plan, triangles: impl IntoIterator<Item = [usize; 3]>) -> Option<Self> {
-        let corner = |&number: &usize| Corner {
-            number,
-            place: plan.places[number],
-            is_exact: number < plan.exact,
-        };
+    pub fn around(
+        triangles: impl IntoIterator<Item = [usize; 3]>,
+        corner: impl Fn(usize) -> Corner,
+    ) -> Option<Self> {
         let rings = rings(triangles).into_iter();
         Self::new(
             rings
-                .map(|ring| ring.iter().map(corner).collect())
+                .map(|ring| ring.into_iter().map(&corner).collect())
                 .collect(),
         )
     }

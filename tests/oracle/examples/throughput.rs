@@ -6,8 +6,8 @@ use std::time::Instant;
 
 use fastrand::Rng;
 use oracle::{
-    Aabb, Mesh, Occluder, OccluderIndex, Point, RayCaster, Sight, Triangle, check_inner_envelope,
-    check_volume, surface_samples,
+    Aabb, Mesh, Occluder, OccluderIndex, Point, Prism, RayCaster, Sight, Triangle,
+    check_inner_envelope, check_volume, surface_samples,
 };
 
 /// Where the city lies.
@@ -98,7 +98,8 @@ fn volumes() {
         let volume = Aabb::new([x, y, 1.5], [x + 3.0, y + 2.0, 2.0]);
         let occluder = Aabb::new([x - 20.0, y + 10.0, 0.0], [x + 20.0, y + 20.0, 15.0]);
         let occludee = Aabb::new([x - 4.0, y + 30.0, 0.0], [x + 8.0, y + 40.0, 12.0]);
-        right += usize::from(check_volume(&volume, &occluder, true, &occludee).is_ok());
+        let prisms: Vec<Prism> = Prism::of_box(&occluder, true).into_iter().collect();
+        right += usize::from(check_volume(&volume, &prisms, &occludee).is_ok());
     }
     report("occlusion volumes", count, start, right);
 }
@@ -122,10 +123,9 @@ fn single_occluders() {
     let occluders: Vec<Occluder> = houses
         .iter()
         .zip(0..)
-        .map(|(house, id)| Occluder {
-            id,
-            inner: *house,
-            grounded: true,
+        .filter_map(|(house, id)| {
+            let solid = Prism::of_box(house, true).ok()?;
+            Some(Occluder { id, solid })
         })
         .collect();
     let start = Instant::now();

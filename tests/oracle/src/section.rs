@@ -1,0 +1,184 @@
+//! Triangles and polygons against the open solid over a footprint, exactly.
+
+use std::cmp::Ordering;
+
+use crate::exact::Rational;
+use crate::footprint::Footprint;
+use crate::interval::Interval;
+use crate::mesh::Triangle;
+use crate::number::{Number, sign_of};
+use crate::plane::{Edge, Place, Spot, any_piece, between, doubled_area, place, plan_turn, spot};
+
+/// Heights between which a solid over a footprint lies; the bottom may be minus infinity.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Heights {
+    pub(crate) bottom: f64,
+    pub(crate) top: f64,
+}
+
+/// Whether the closed triangle meets the open solid over `footprint`. Touching its boundary from
+/// outside or running within a face does not.
+pub(crate) fn triangle_meets_solid(
+    triangle: &Triangle,
+    footprint: &Footprint,
+    heights: Heights,
+) -> bool {
+    !is_beside(triangle, footprint, heights)
+        && meets::<Interval>(triangle, footprint, heights)
+            .or_else(|| meets::<Rational>(triangle, footprint, heights))
+            // Rationals always decide.
+            .unwrap_or(true)
+}
+
+/// Whether a face of the box around the solid keeps the triangle out.
+fn is_beside([a, b, c]: &Triangle, footprint: &Footprint, heights: Heights) -> bool {
+    let ([west, south], [east, north]) = (footprint.min, footprint.max);
+    let (min, max) = ([west, south, heights.bottom], [east, north, heights.top]);
+    (0..3).any(|i| a[i].max(b[i]).max(c[i]) <= min[i] || a[i].min(b[i]).min(c[i]) >= max[i])
+}
+
+/// The same for a triangle that reaches between the heights: the part of it there, seen in plan,
+/// against the open polygon, of which it need not matter whether that part holds its boundary.
+fn meets<N: Number>(triangle: &Triangle, footprint: &Footprint, heights: Heights) -> Option<bool> {
+    let mut shadow = shadow::<N>(triangle, heights);
+    let [a, b, c] = triangle.map(|[x, y, _]| [x, y]);
+    match plan_turn(a, b, c) {
+        Ordering::Equal => outline_meets(&shadow, &footprint.edges),
+        Ordering::Greater => convex_meets(&shadow, &footprint.edges),
+        Ordering::Less => {
+            shadow.reverse();
+            convex_meets(&shadow, &footprint.edges)
+        }
+    }
+}
+
+/// The part of the triangle between the heights, in plan.
+fn shadow<N: Number>(triangle: &Triangle, heights: Heights) -> Vec<Spot<N>> {
+    let whole = triangle.map(|[x, y, z]| (spot([x, y]), z));
+    let above = clipped(&whole, heights.bottom, Ordering::Less);
+    let section = clipped(&above, heights.top, Ordering::Greater);
+    section.into_iter().map(|(spot, _)| spot).collect()
+}
+
+/// A convex polygon of spots with their heights, without what lies on the `dropped` side of a
+/// height. Heights stay exact: those of new corners are the height itself.
+fn clipped<N: Number>(
+    polygon: &[(Spot<N>, f64)],
+    height: f64,
+    dropped: Ordering,
+) -> Vec<(Spot<N>, f64)> {
+    let is_kept = |z: f64| z.partial_cmp(&height) != Some(dropped);
+    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    for ((p, from), (q, to)) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
+        if is_kept(*from) {
+            kept.push((p.clone(), *from));
+        }
+        let passes = (*from < height && height < *to) || (*to < height && height < *from);
+        if passes {
+            let [start, end, middle] = [*from, *to, height].map(N::from_f64);
+            let at = middle.minus(&start).over(&end.minus(&start));
+            kept.push((between(p, q, &at), height));
+        }
+    }
+    kept
+}
+
+/// Whether the outline of a polygon without area meets the open polygon within `edges`.
+fn outline_meets<N: Number>(outline: &[Spot<N>], edges: &[Edge]) -> Option<bool> {
+    let mut certain = true;
+    for (a, b) in outline.iter().zip(outline.iter().cycle().skip(1)) {
+        match side_meets(a, b, edges) {
+            Some(true) => return Some(true),
+            Some(false) => {}
+            None => certain = false,
+        }
+    }
+    certain.then_some(false)
+}
+
+fn side_meets<N: Number>(a: &Spot<N>, b: &Spot<N>, edges: &[Edge]) -> Option<bool> {
+    let is_inside = |place| place == Place::Inside;
+    if a[0].compare(&b[0])? == Ordering::Equal && a[1].compare(&b[1])? == Ordering::Equal {
+        return place(edges, a).map(is_inside);
+    }
+    any_piece(edges, [a, b], [0.0, 1.0].map(N::from_f64), is_inside)
+}
+
+/// Whether a convex polygon with an area, anticlockwise, meets the open polygon within `edges`:
+/// some edge passes through its interior, or it lies all inside.
+fn convex_meets<N: Number>(polygon: &[Spot<N>], edges: &[Edge]) -> Option<bool> {
+    if any_edge_enters(polygon, edges)? {
+        return Some(true);
+    }
+    place(edges, &centre(polygon)).map(|place| place == Place::Inside)
+}
+
+/// Whether a convex polygon with an area, anticlockwise, lies in the closed polygon within `edges`.
+pub(crate) fn lies_within<N: Number>(polygon: &[Spot<N>], edges: &[Edge]) -> Option<bool> {
+    if any_edge_enters(polygon, edges)? {
+        return Some(false);
+    }
+    place(edges, &centre(polygon)).map(|place| place == Place::Inside)
+}
+
+/// Whether any of the edges meets the open convex polygon.
+fn any_edge_enters<N: Number>(polygon: &[Spot<N>], edges: &[Edge]) -> Option<bool> {
+    let mut certain = true;
+    for edge in edges {
+        match edge_enters(polygon, edge) {
+            Some(true) => return Some(true),
+            Some(false) => {}
+            None => certain = false,
+        }
+    }
+    certain.then_some(false)
+}
+
+/// Whether the closed edge meets the open convex polygon: no side of the polygon and not the edge
+/// itself separates them (the sides of their Minkowski difference are parallel to these).
+fn edge_enters<N: Number>(polygon: &[Spot<N>], edge: &Edge) -> Option<bool> {
+    let [u, v] = edge.map(spot);
+    let mut certain = true;
+    for (p, q) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
+        match keeps_right(p, q, [&u, &v]) {
+            Some(true) => return Some(false),
+            Some(false) => {}
+            None => certain = false,
+        }
+    }
+    for [from, to] in [[&u, &v], [&v, &u]] {
+        match keeps_right(from, to, polygon) {
+            Some(true) => return Some(false),
+            Some(false) => {}
+            None => certain = false,
+        }
+    }
+    certain.then_some(true)
+}
+
+/// Whether all spots lie on or to the right of the line from `p` to `q`.
+fn keeps_right<'a, N: Number + 'a>(
+    p: &Spot<N>,
+    q: &Spot<N>,
+    spots: impl IntoIterator<Item = &'a Spot<N>>,
+) -> Option<bool> {
+    let mut certain = true;
+    for spot in spots {
+        match sign_of(&doubled_area(p, q, spot)) {
+            Some(Ordering::Greater) => return Some(false),
+            Some(_) => {}
+            None => certain = false,
+        }
+    }
+    certain.then_some(true)
+}
+
+/// The mean of the corners, inside a convex polygon with an area.
+fn centre<N: Number>(polygon: &[Spot<N>]) -> Spot<N> {
+    let zero = [0.0; 2].map(N::from_f64);
+    let sum = polygon.iter().fold(zero, |sum: Spot<N>, corner| {
+        std::array::from_fn(|axis| sum[axis].plus(&corner[axis]))
+    });
+    let count = N::from_f64(polygon.len() as f64);
+    sum.map(|x| x.over(&count))
+}

@@ -120,3 +120,51 @@ impl Column {
         ]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::prism::Prism;
+    use crate::scenes::{cases, points, ring};
+    use crate::segment::segment_meets_interior;
+
+    proptest! {
+        #![proptest_config(cases(4000))]
+        #[test]
+        fn a_ring_is_its_bars([p, q, a, b, c, d] in points(), grounded in any::<bool>()) {
+            let Some((mut column, bars)) = ring([a, b, c, d]) else {
+                return Ok(());
+            };
+            column.grounded = grounded;
+            let meets = |bar: &Aabb| {
+                segment_meets_interior(p, q, &Prism::of_box(bar, grounded).unwrap())
+            };
+            prop_assert_eq!(column.meets_segment(p, q), bars.iter().any(meets));
+        }
+
+        #[test]
+        fn agrees_with_half_spaces([p, q, a, b, c] in points(), grounded in any::<bool>()) {
+            let corners = [a, b, c].map(|[x, y, _]| [x, y]);
+            let (bottom, top) = (a[2].min(b[2]), a[2].max(b[2]));
+            let Ok(prism) = Prism::new(&corners, bottom, top, grounded) else {
+                return Ok(());
+            };
+            let column = Column::new(&[corners.to_vec()], bottom, top, grounded).unwrap();
+            prop_assert_eq!(column.meets_segment(p, q), segment_meets_interior(p, q, &prism));
+            prop_assert_eq!(column.interior_contains(p), prism.interior_contains(p));
+        }
+
+        #[test]
+        fn filter_never_disagrees([p, q, a, b, c, d] in points()) {
+            let Some((column, _)) = ring([a, b, c, d]) else {
+                return Ok(());
+            };
+            prop_assume!(p != q && !column.is_beside(p, q));
+            if let Some(answer) = column.meets::<Interval>(p, q) {
+                prop_assert_eq!(Some(answer), column.meets::<Rational>(p, q));
+            }
+        }
+    }
+}

@@ -10,9 +10,9 @@ use crate::number::{Number, middle};
 use crate::plane::{Edge, Place, PlanPoint, Spot, any_piece, place, plan_turn, ring_edges, spot};
 use crate::ray_caster::MAX_COORDINATE;
 
-/// Most corners that a footprint may have: rings are checked edge against edge, so the time grows
-/// with the square. No building comes near.
-pub const MAX_CORNERS: usize = 10_000;
+/// Most corners that a footprint may have: edges are checked against each other, so the time grows
+/// with the square. Hardly a building comes near.
+pub const MAX_CORNERS: usize = 4096;
 
 /// Why rings of corners, or heights, bound no solid.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
@@ -144,9 +144,9 @@ impl Footprint {
 
     /// At least one point inside each connected piece of the interior.
     ///
-    /// The corners cut the interior into trapezoids between neighbouring heights (in plan). The
-    /// lowest trapezoid of a piece lies between two edges that both begin at its lower side, for
-    /// along an edge that comes from below the piece would reach further down.
+    /// The corners cut the interior into trapezoids between neighbouring ordinates. Both sides of
+    /// the lowest trapezoid of a piece have a corner at its lower end, their own or one that
+    /// touches: past any other point of an edge the piece would reach further down.
     pub(crate) fn witnesses(&self) -> Vec<Spot<Rational>> {
         let mut levels: Vec<f64> = self.edges.iter().map(|edge| edge[0][1]).collect();
         levels.sort_by(f64::total_cmp);
@@ -158,22 +158,28 @@ impl Footprint {
     }
 
     fn slab_witnesses(&self, low: f64, high: f64) -> Vec<Spot<Rational>> {
-        let ends = |edge: &Edge| [edge[0][1].min(edge[1][1]), edge[0][1].max(edge[1][1])];
-        let begins = |edge: &Edge| ends(edge)[0] == low && ends(edge)[1] > low;
-        if self.edges.iter().filter(|edge| begins(edge)).count() < 2 {
+        let corners = self.edges.iter().map(|edge| edge[0]);
+        let at_low: Vec<PlanPoint> = corners.filter(|corner| corner[1] == low).collect();
+        let through = self
+            .edges
+            .iter()
+            .filter(|[u, v]| u[1].min(v[1]) <= low && u[1].max(v[1]) >= high);
+        let has_corner = |[u, v]: &Edge| {
+            let is_on = |&corner| plan_turn(*u, *v, corner) == Ordering::Equal;
+            at_low.iter().any(is_on)
+        };
+        let sides: Vec<(&Edge, bool)> = through.map(|edge| (edge, has_corner(edge))).collect();
+        if sides.iter().filter(|(_, has_corner)| *has_corner).count() < 2 {
             return Vec::new();
         }
         let level = middle(&rational(low), &rational(high));
-        let through = self.edges.iter().filter(|edge| {
-            let [from, to] = ends(edge);
-            from <= low && to >= high
-        });
-        let mut crossings: Vec<(Rational, bool)> = through
-            .map(|edge| (abscissa(edge, &level), begins(edge)))
+        let mut crossings: Vec<(Rational, bool)> = sides
+            .iter()
+            .map(|(edge, has_corner)| (abscissa(edge, &level), *has_corner))
             .collect();
         crossings.sort();
-        let sides = crossings.chunks_exact(2);
-        sides
+        let trapezoids = crossings.chunks_exact(2);
+        trapezoids
             .filter(|sides| sides[0].1 && sides[1].1)
             .map(|sides| [middle(&sides[0].0, &sides[1].0), level.clone()])
             .collect()

@@ -182,3 +182,104 @@ fn centre<N: Number>(polygon: &[Spot<N>]) -> Spot<N> {
     let count = N::from_f64(polygon.len() as f64);
     sum.map(|x| x.over(&count))
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::aabb::Point;
+    use crate::exact::{Vector, sign, vector};
+    use crate::number::{cross, difference, dot};
+    use crate::overlap::triangle_meets_interior;
+    use crate::scenes::{cases, points, ring};
+
+    /// Another method: clip the triangle by the half-spaces of a convex prism, each given by three
+    /// points that turn anticlockwise seen from inside. What is left of it is convex, so it meets the
+    /// open prism exactly when its centroid is strictly inside.
+    fn clipped_meets(triangle: &Triangle, faces: &[[Point; 3]]) -> bool {
+        let depth = |[a, b, c]: &[Point; 3], p: &Vector| {
+            let [u, v] = [b, c].map(|end| difference(&vector(*end), &vector(*a)));
+            dot(&cross(&u, &v), &difference(p, &vector(*a)))
+        };
+        let mut polygon: Vec<Vector> = triangle.iter().map(|&corner| vector(corner)).collect();
+        for face in faces {
+            let mut kept = Vec::new();
+            for (p, q) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
+                let (from, to) = (depth(face, p), depth(face, q));
+                if sign(&from) != Ordering::Less {
+                    kept.push(p.clone());
+                }
+                if sign(&from) == sign(&to).reverse() && sign(&from) != Ordering::Equal {
+                    let t = &from / (&from - &to);
+                    kept.push(std::array::from_fn(|k| &p[k] + (&q[k] - &p[k]) * &t));
+                }
+            }
+            polygon = kept;
+        }
+        let Ok(count) = u32::try_from(polygon.len()) else {
+            return false;
+        };
+        let sum = |axis: usize| polygon.iter().fold(Rational::ZERO, |sum, p| sum + &p[axis]);
+        count > 0 && {
+            let centre = [0, 1, 2].map(|axis| sum(axis) / Rational::from(count));
+            faces
+                .iter()
+                .all(|face| sign(&depth(face, &centre)) == Ordering::Greater)
+        }
+    }
+
+    proptest! {
+        #![proptest_config(cases(2000))]
+        #[test]
+        fn agrees_with_clipping([a, b, c, d, e, f] in points()) {
+            let corners = [d, e, f].map(|[x, y, _]| [x, y]).to_vec();
+            let (bottom, top) = (d[2].min(e[2]), d[2].max(e[2]));
+            let Ok(footprint) = Footprint::new(&[corners]) else {
+                return Ok(());
+            };
+            prop_assume!(bottom < top);
+            let wall = |[ux, uy, _]: Point, [vx, vy, _]: Point| {
+                [[vx, vy, 0.0], [ux, uy, 0.0], [vx, vy, 1.0]]
+            };
+            let faces = [
+                wall(d, e),
+                wall(e, f),
+                wall(f, d),
+                [[0.0, 0.0, bottom], [1.0, 0.0, bottom], [0.0, 1.0, bottom]],
+                [[0.0, 0.0, top], [0.0, 1.0, top], [1.0, 0.0, top]],
+            ];
+            prop_assert_eq!(
+                triangle_meets_solid(&[a, b, c], &footprint, Heights { bottom, top }),
+                clipped_meets(&[a, b, c], &faces)
+            );
+        }
+
+        #[test]
+        fn a_ring_is_its_bars([a, b, c, d, e, f, g] in points()) {
+            let Some((column, bars)) = ring([d, e, f, g]) else {
+                return Ok(());
+            };
+            let heights = Heights { bottom: column.bottom, top: column.top };
+            let footprint = column.footprint;
+            prop_assert_eq!(
+                triangle_meets_solid(&[a, b, c], &footprint, heights),
+                bars.iter().any(|bar| triangle_meets_interior(&[a, b, c], bar))
+            );
+        }
+
+        #[test]
+        fn filter_never_disagrees([a, b, c, d, e, f, g] in points()) {
+            let Some((column, _)) = ring([d, e, f, g]) else {
+                return Ok(());
+            };
+            let heights = Heights { bottom: column.bottom, top: column.top };
+            let footprint = column.footprint;
+            let triangle = [a, b, c];
+            prop_assume!(!is_beside(&triangle, &footprint, heights));
+            if let Some(answer) = meets::<Interval>(&triangle, &footprint, heights) {
+                prop_assert_eq!(Some(answer), meets::<Rational>(&triangle, &footprint, heights));
+            }
+        }
+    }
+}

@@ -7,7 +7,7 @@ use crate::exact::Rational;
 use crate::footprint::{Footprint, ShapeFault, check_heights};
 use crate::interval::Interval;
 use crate::number::Number;
-use crate::plane::{Place, PlanPoint, any_piece, place, spot};
+use crate::plane::{Outline, Place, PlanPoint, any_piece, place, spot};
 
 /// A footprint, a polygon with holes, times a range of heights, claimed to be solid.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,8 +71,9 @@ impl Column {
         if !is_finite(p) || !is_finite(q) || p == q || self.is_beside(p, q) {
             return false;
         }
-        self.meets::<Interval>(p, q)
-            .or_else(|| self.meets::<Rational>(p, q))
+        let outline = Outline::around(&[[p[0], p[1]], [q[0], q[1]]], &self.footprint.edges);
+        self.meets::<Interval>(&outline, p, q)
+            .or_else(|| self.meets::<Rational>(&outline, p, q))
             // Rationals always decide.
             .unwrap_or(false)
     }
@@ -83,17 +84,16 @@ impl Column {
         (0..3).any(|i| p[i].max(q[i]) <= bounds.min[i] || p[i].min(q[i]) >= bounds.max[i])
     }
 
-    fn meets<N: Number>(&self, p: Point, q: Point) -> Option<bool> {
-        let edges = &self.footprint.edges;
+    fn meets<N: Number>(&self, outline: &Outline, p: Point, q: Point) -> Option<bool> {
         let (from, to) = ([p[0], p[1]], [q[0], q[1]]);
         let [enter, leave]: [N; 2] = self.heights(p[2], q[2]);
         if from == to {
-            return Some(place::<N>(edges, &spot(from))? == Place::Inside);
+            return Some(place::<N>(&outline.right, &spot(from))? == Place::Inside);
         }
         if enter.compare(&leave)? != Ordering::Less {
             return Some(false);
         }
-        any_piece(edges, [&spot(from), &spot(to)], [enter, leave], |place| {
+        any_piece(outline, [&spot(from), &spot(to)], [enter, leave], |place| {
             place == Place::Inside
         })
     }
@@ -162,8 +162,10 @@ mod tests {
                 return Ok(());
             };
             prop_assume!(p != q && !column.is_beside(p, q));
-            if let Some(answer) = column.meets::<Interval>(p, q) {
-                prop_assert_eq!(Some(answer), column.meets::<Rational>(p, q));
+            let ends = [p, q].map(|[x, y, _]| [x, y]);
+            let outline = Outline::around(&ends, &column.footprint.edges);
+            if let Some(answer) = column.meets::<Interval>(&outline, p, q) {
+                prop_assert_eq!(Some(answer), column.meets::<Rational>(&outline, p, q));
             }
         }
     }

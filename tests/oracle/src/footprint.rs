@@ -7,7 +7,9 @@ use thiserror::Error;
 use crate::exact::{Rational, rational, sign};
 use crate::interval::Interval;
 use crate::number::{Number, middle};
-use crate::plane::{Edge, Place, PlanPoint, Spot, any_piece, place, plan_turn, ring_edges, spot};
+use crate::plane::{
+    Edge, Outline, Place, PlanPoint, Spot, any_piece, place, plan_turn, ring_edges, spot,
+};
 use crate::ray_caster::MAX_COORDINATE;
 
 /// Most corners that a footprint may have: edges are checked against each other, so the time grows
@@ -305,15 +307,16 @@ fn check_holes(rings: &[Vec<Edge>]) -> Result<(), ShapeFault> {
 /// Whether an edge, but for points where it touches, lies in one place against a ring.
 fn keeps_to(&[u, v]: &Edge, fence: &[Edge], wanted: Place) -> bool {
     let strays = |place| place != wanted;
+    let outline = Outline::around(&[u, v], fence);
     let filtered = any_piece::<Interval>(
-        fence,
+        &outline,
         [&spot(u), &spot(v)],
         [0.0, 1.0].map(Interval::from_f64),
         strays,
     );
     let exact = || {
         let range = [Rational::ZERO, Rational::ONE];
-        any_piece::<Rational>(fence, [&spot(u), &spot(v)], range, strays)
+        any_piece::<Rational>(&outline, [&spot(u), &spot(v)], range, strays)
     };
     // Rationals always decide.
     !filtered.or_else(exact).unwrap_or(true)

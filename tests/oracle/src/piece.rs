@@ -5,7 +5,7 @@ use thiserror::Error;
 use crate::column::Column;
 use crate::exact::Rational;
 use crate::interval::Interval;
-use crate::plane::{Spot, spot};
+use crate::plane::{Outline, PlanPoint, Spot, spot};
 use crate::prism::Prism;
 use crate::section::lies_within;
 
@@ -65,12 +65,13 @@ fn holds(column: &Column, piece: &Prism) -> bool {
 }
 
 fn holds_in_plan(column: &Column, piece: &Prism) -> bool {
-    let edges = &column.footprint.edges;
-    let filter: Vec<Spot<Interval>> = piece.edges.iter().map(|edge| spot(edge[0])).collect();
-    lies_within(&filter, edges)
+    let corners: Vec<PlanPoint> = piece.edges.iter().map(|edge| edge[0]).collect();
+    let outline = Outline::around(&corners, &column.footprint.edges);
+    let filter: Vec<Spot<Interval>> = corners.iter().map(|corner| spot(*corner)).collect();
+    lies_within(&filter, &outline)
         .or_else(|| {
-            let exact: Vec<Spot<Rational>> = piece.edges.iter().map(|edge| spot(edge[0])).collect();
-            lies_within(&exact, edges)
+            let exact: Vec<Spot<Rational>> = corners.iter().map(|corner| spot(*corner)).collect();
+            lies_within(&exact, &outline)
         })
         // Rationals always decide.
         .unwrap_or(false)

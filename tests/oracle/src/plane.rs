@@ -51,6 +51,38 @@ pub(crate) fn between<N: Number>(a: &Spot<N>, b: &Spot<N>, at: &N) -> Spot<N> {
     std::array::from_fn(|axis| a[axis].plus(&b[axis].minus(&a[axis]).times(at)))
 }
 
+/// The edges of a polygon that matter within a rectangle.
+pub(crate) struct Outline {
+    /// Those that may touch the rectangle.
+    pub(crate) near: Vec<Edge>,
+    /// Those that rays from it to greater x may meet.
+    pub(crate) right: Vec<Edge>,
+}
+
+impl Outline {
+    /// The edges that matter within the rectangle around some points.
+    pub(crate) fn around(points: &[PlanPoint], edges: &[Edge]) -> Self {
+        let bound = |axis: usize, pick: fn(f64, f64) -> f64, start: f64| {
+            points
+                .iter()
+                .fold(start, |bound, point| pick(bound, point[axis]))
+        };
+        let min = [0, 1].map(|axis| bound(axis, f64::min, f64::INFINITY));
+        let max = [0, 1].map(|axis| bound(axis, f64::max, f64::NEG_INFINITY));
+        let ends_before = |[u, v]: &Edge, axis: usize| u[axis].max(v[axis]) < min[axis];
+        let starts_behind = |[u, v]: &Edge, axis: usize| u[axis].min(v[axis]) > max[axis];
+        let is_right = |edge: &&Edge| {
+            !ends_before(edge, 0) && !ends_before(edge, 1) && !starts_behind(edge, 1)
+        };
+        let right: Vec<Edge> = edges.iter().filter(is_right).copied().collect();
+        let is_near = |edge: &&Edge| !starts_behind(edge, 0);
+        Self {
+            near: right.iter().filter(is_near).copied().collect(),
+            right,
+        }
+    }
+}
+
 /// Where a spot lies against the polygon that `edges` bound, holes included. `None` where the
 /// arithmetic cannot tell.
 pub(crate) fn place<N: Number>(edges: &[Edge], point: &Spot<N>) -> Option<Place> {
@@ -101,16 +133,16 @@ fn passage<N: Number>([u, v]: Edge, point: &Spot<N>) -> Option<Passage> {
 }
 
 /// Whether some piece of the segment from `a` to `b`, between two of the parameters `range` and
-/// cut where it meets `edges`, lies in a `wanted` place against the polygon that they bound. The
-/// ends of pieces do not count. `None` where the arithmetic cannot tell; it needs `a` unlike `b`.
+/// cut where it meets the outline, lies in a `wanted` place against the polygon within. The ends of
+/// pieces do not count. `None` where the arithmetic cannot tell; it needs `a` unlike `b`.
 pub(crate) fn any_piece<N: Number>(
-    edges: &[Edge],
+    outline: &Outline,
     [a, b]: [&Spot<N>; 2],
     range: [N; 2],
     wanted: impl Fn(Place) -> bool,
 ) -> Option<bool> {
     let mut cuts = Vec::new();
-    for &edge in edges {
+    for &edge in &outline.near {
         for cut in edge_cuts(edge, a, b)? {
             let orders = [cut.compare(&range[0])?, cut.compare(&range[1])?];
             if orders == [Ordering::Greater, Ordering::Less] {
@@ -126,7 +158,7 @@ pub(crate) fn any_piece<N: Number>(
             continue;
         }
         let point = between(a, b, &middle(&pair[0], &pair[1]));
-        match place(edges, &point) {
+        match place(&outline.right, &point) {
             Some(place) if wanted(place) => return Some(true),
             Some(_) => {}
             None => certain = false,

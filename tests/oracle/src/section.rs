@@ -7,7 +7,9 @@ use crate::footprint::Footprint;
 use crate::interval::Interval;
 use crate::mesh::Triangle;
 use crate::number::{Number, sign_of};
-use crate::plane::{Edge, Place, Spot, any_piece, between, doubled_area, place, plan_turn, spot};
+use crate::plane::{
+    Edge, Outline, Place, PlanPoint, Spot, any_piece, between, doubled_area, place, plan_turn, spot,
+};
 
 /// Heights between which a solid over a footprint lies; the bottom may be minus infinity.
 #[derive(Clone, Copy, Debug)]
@@ -23,11 +25,14 @@ pub(crate) fn triangle_meets_solid(
     footprint: &Footprint,
     heights: Heights,
 ) -> bool {
-    !is_beside(triangle, footprint, heights)
-        && meets::<Interval>(triangle, footprint, heights)
-            .or_else(|| meets::<Rational>(triangle, footprint, heights))
-            // Rationals always decide.
-            .unwrap_or(true)
+    if is_beside(triangle, footprint, heights) {
+        return false;
+    }
+    let outline = Outline::around(&in_plan(triangle), &footprint.edges);
+    meets::<Interval>(triangle, &outline, heights)
+        .or_else(|| meets::<Rational>(triangle, &outline, heights))
+        // Rationals always decide.
+        .unwrap_or(true)
 }
 
 /// Whether a face of the box around the solid keeps the triangle out.
@@ -39,15 +44,15 @@ fn is_beside([a, b, c]: &Triangle, footprint: &Footprint, heights: Heights) -> b
 
 /// The same for a triangle that reaches between the heights: the part of it there, seen in plan,
 /// against the open polygon, of which it need not matter whether that part holds its boundary.
-fn meets<N: Number>(triangle: &Triangle, footprint: &Footprint, heights: Heights) -> Option<bool> {
+fn meets<N: Number>(triangle: &Triangle, outline: &Outline, heights: Heights) -> Option<bool> {
     let mut shadow = shadow::<N>(triangle, heights);
-    let [a, b, c] = triangle.map(|[x, y, _]| [x, y]);
+    let [a, b, c] = in_plan(triangle);
     match plan_turn(a, b, c) {
-        Ordering::Equal => outline_meets(&shadow, &footprint.edges),
-        Ordering::Greater => convex_meets(&shadow, &footprint.edges),
+        Ordering::Equal => sides_meet(&shadow, outline),
+        Ordering::Greater => convex_meets(&shadow, outline),
         Ordering::Less => {
             shadow.reverse();
-            convex_meets(&shadow, &footprint.edges)
+            convex_meets(&shadow, outline)
         }
     }
 }
@@ -83,11 +88,15 @@ fn clipped<N: Number>(
     kept
 }
 
-/// Whether the outline of a polygon without area meets the open polygon within `edges`.
-fn outline_meets<N: Number>(outline: &[Spot<N>], edges: &[Edge]) -> Option<bool> {
+fn in_plan(triangle: &Triangle) -> [PlanPoint; 3] {
+    triangle.map(|[x, y, _]| [x, y])
+}
+
+/// Whether a side of a polygon without area meets the open polygon within the outline.
+fn sides_meet<N: Number>(polygon: &[Spot<N>], outline: &Outline) -> Option<bool> {
     let mut certain = true;
-    for (a, b) in outline.iter().zip(outline.iter().cycle().skip(1)) {
-        match side_meets(a, b, edges) {
+    for (a, b) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
+        match side_meets(a, b, outline) {
             Some(true) => return Some(true),
             Some(false) => {}
             None => certain = false,
@@ -96,29 +105,30 @@ fn outline_meets<N: Number>(outline: &[Spot<N>], edges: &[Edge]) -> Option<bool>
     certain.then_some(false)
 }
 
-fn side_meets<N: Number>(a: &Spot<N>, b: &Spot<N>, edges: &[Edge]) -> Option<bool> {
+fn side_meets<N: Number>(a: &Spot<N>, b: &Spot<N>, outline: &Outline) -> Option<bool> {
     let is_inside = |place| place == Place::Inside;
     if a[0].compare(&b[0])? == Ordering::Equal && a[1].compare(&b[1])? == Ordering::Equal {
-        return place(edges, a).map(is_inside);
+        return place(&outline.right, a).map(is_inside);
     }
-    any_piece(edges, [a, b], [0.0, 1.0].map(N::from_f64), is_inside)
+    any_piece(outline, [a, b], [0.0, 1.0].map(N::from_f64), is_inside)
 }
 
-/// Whether a convex polygon with an area, anticlockwise, meets the open polygon within `edges`:
-/// some edge passes through its interior, or it lies all inside.
-fn convex_meets<N: Number>(polygon: &[Spot<N>], edges: &[Edge]) -> Option<bool> {
-    if any_edge_enters(polygon, edges)? {
+/// Whether a convex polygon with an area, anticlockwise, meets the open polygon within the
+/// outline: some edge passes through its interior, or it lies all inside.
+fn convex_meets<N: Number>(polygon: &[Spot<N>], outline: &Outline) -> Option<bool> {
+    if any_edge_enters(polygon, &outline.near)? {
         return Some(true);
     }
-    place(edges, &centre(polygon)).map(|place| place == Place::Inside)
+    place(&outline.right, &centre(polygon)).map(|place| place == Place::Inside)
 }
 
-/// Whether a convex polygon with an area, anticlockwise, lies in the closed polygon within `edges`.
-pub(crate) fn lies_within<N: Number>(polygon: &[Spot<N>], edges: &[Edge]) -> Option<bool> {
-    if any_edge_enters(polygon, edges)? {
+/// Whether a convex polygon with an area, anticlockwise, lies in the closed polygon within the
+/// outline.
+pub(crate) fn lies_within<N: Number>(polygon: &[Spot<N>], outline: &Outline) -> Option<bool> {
+    if any_edge_enters(polygon, &outline.near)? {
         return Some(false);
     }
-    place(edges, &centre(polygon)).map(|place| place == Place::Inside)
+    place(&outline.right, &centre(polygon)).map(|place| place == Place::Inside)
 }
 
 /// Whether any of the edges meets the open convex polygon.
@@ -277,8 +287,9 @@ mod tests {
             let footprint = column.footprint;
             let triangle = [a, b, c];
             prop_assume!(!is_beside(&triangle, &footprint, heights));
-            if let Some(answer) = meets::<Interval>(&triangle, &footprint, heights) {
-                prop_assert_eq!(Some(answer), meets::<Rational>(&triangle, &footprint, heights));
+            let outline = Outline::around(&in_plan(&triangle), &footprint.edges);
+            if let Some(answer) = meets::<Interval>(&triangle, &outline, heights) {
+                prop_assert_eq!(Some(answer), meets::<Rational>(&triangle, &outline, heights));
             }
         }
     }

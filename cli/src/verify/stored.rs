@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use indicatif::ParallelProgressIterator;
-use oracle::{Aabb, check_inner_envelope, check_volume};
+use oracle::{Prism, check_inner_envelope, check_volume};
 use rayon::prelude::*;
 
 use super::fault::Fault;
@@ -87,12 +87,14 @@ impl<'a> VolumeChecker<'a> {
         let (occluder, occludee) = (find(volume.occluder)?, find(volume.occludee)?);
         let fault = match &occluder.inner {
             None => "the occluder has no inner envelope".to_owned(),
-            Some(inner) => {
-                let (eyes, hider) = (Aabb::from(volume.bounds), Aabb::from(inner.bounds));
-                check_volume(&eyes, &hider, inner.grounded, &occludee.envelope.into())
-                    .err()?
-                    .to_string()
-            }
+            Some(inner) => match Prism::of_box(&inner.bounds.into(), inner.grounded) {
+                Err(fault) => fault.to_string(),
+                Ok(hider) => {
+                    check_volume(&volume.bounds.into(), &[hider], &occludee.envelope.into())
+                        .err()?
+                        .to_string()
+                }
+            },
         };
         Some(format!("volume of {occluder} hiding {occludee}: {fault}"))
     }

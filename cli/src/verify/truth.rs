@@ -1,6 +1,6 @@
 //! [`Truth`], what rays are cast at and by what.
 
-use oracle::{Occluder, OccluderIndex, Point, RayCaster, Triangle, surface_samples};
+use oracle::{Occluder, OccluderIndex, Point, Prism, RayCaster, Triangle, surface_samples};
 
 use crate::failure::Failure;
 use crate::scene::{Feature, Scene, Surfaces, number};
@@ -47,8 +47,7 @@ fn occluders(scene: &Scene) -> Vec<Occluder> {
         let inner = feature.inner.as_ref()?;
         Some(Occluder {
             id: number(position),
-            inner: inner.bounds.into(),
-            grounded: inner.grounded,
+            solid: Prism::of_box(&inner.bounds.into(), inner.grounded).ok()?,
         })
     };
     scene

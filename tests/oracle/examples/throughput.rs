@@ -6,8 +6,9 @@ use std::time::Instant;
 
 use fastrand::Rng;
 use oracle::{
-    Aabb, Mesh, Occluder, OccluderIndex, Point, RayCaster, Sight, Triangle, check_inner_envelope,
-    check_volume, surface_samples,
+    Aabb, Column, ColumnIndex, Mesh, Occluder, OccluderIndex, PlanPoint, Point, Prism, RayCaster,
+    Sight, Triangle, check_column, check_inner_envelope, check_volume, sample_column,
+    surface_samples,
 };
 
 /// Where the city lies.
@@ -16,6 +17,7 @@ const ORIGIN: Point = [85_000.0, 447_000.0, 0.0];
 fn main() {
     volumes();
     inner_envelopes();
+    columns();
     single_occluders();
     lines_of_sight();
 }
@@ -98,7 +100,8 @@ fn volumes() {
         let volume = Aabb::new([x, y, 1.5], [x + 3.0, y + 2.0, 2.0]);
         let occluder = Aabb::new([x - 20.0, y + 10.0, 0.0], [x + 20.0, y + 20.0, 15.0]);
         let occludee = Aabb::new([x - 4.0, y + 30.0, 0.0], [x + 8.0, y + 40.0, 12.0]);
-        right += usize::from(check_volume(&volume, &occluder, true, &occludee).is_ok());
+        let prisms: Vec<Prism> = Prism::of_box(&occluder, true).into_iter().collect();
+        right += usize::from(check_volume(&volume, &prisms, &occludee).is_ok());
     }
     report("occlusion volumes", count, start, right);
 }
@@ -116,16 +119,116 @@ fn inner_envelopes() {
     report("inner envelopes", meshes.len(), start, right.count());
 }
 
+/// A house turned by some angle, each wall cut into seven: an outline of 28 corners.
+fn turned_outline(house: &Aabb, angle: f64) -> Vec<PlanPoint> {
+    let (sin, cos) = angle.sin_cos();
+    let [x0, y0, _] = house.min;
+    let [x1, y1, _] = house.max;
+    let corners = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
+    let points = (0..28).map(|i| {
+        let ([ax, ay], [bx, by]) = (corners[i / 7], corners[(i / 7 + 1) % 4]);
+        let along = (i % 7) as f64 / 7.0;
+        let (x, y) = (ax + along * (bx - ax) - x0, ay + along * (by - ay) - y0);
+        [x0 + cos * x - sin * y, y0 + sin * x + cos * y]
+    });
+    points.collect()
+}
+
+/// The closed mesh over an outline: 108 triangles over 28 corners.
+fn house_mesh(outline: &[PlanPoint], top: f64) -> Mesh {
+    let count = outline.len();
+    let at = |i: usize, z: f64| [outline[i % count][0], outline[i % count][1], z];
+    let caps = (1..count - 1).flat_map(|i| {
+        [
+            [at(0, 0.0), at(i + 1, 0.0), at(i, 0.0)],
+            [at(0, top), at(i, top), at(i + 1, top)],
+        ]
+    });
+    let walls = (0..count).flat_map(|i| {
+        [
+            [at(i, 0.0), at(i + 1, 0.0), at(i + 1, top)],
+            [at(i, 0.0), at(i + 1, top), at(i, top)],
+        ]
+    });
+    Mesh::from_triangles(&caps.chain(walls).collect::<Vec<Triangle>>())
+}
+
+/// Eight columns of a house: two that touch its walls all around, six a centimetre inside.
+fn house_columns(outline: &[PlanPoint], top: f64) -> Vec<Column> {
+    let middle: PlanPoint = [0, 14]
+        .map(|i| outline[i])
+        .iter()
+        .fold([0.0; 2], |sum, corner| {
+            [sum[0] + 0.5 * corner[0], sum[1] + 0.5 * corner[1]]
+        });
+    let inner: Vec<PlanPoint> = outline
+        .iter()
+        .step_by(7)
+        .map(|corner| [0, 1].map(|i| middle[i] + 0.998 * (corner[i] - middle[i])))
+        .collect();
+    (0..8)
+        .filter_map(|i| {
+            let ring = if i < 2 {
+                outline.to_vec()
+            } else {
+                inner.clone()
+            };
+            let [bottom, top] = [i, i + 1].map(|step| top * f64::from(step) / 8.0);
+            Column::new(&[ring], bottom, top, true).ok()
+        })
+        .collect()
+}
+
+fn columns() {
+    let mut rng = Rng::with_seed(6);
+    let houses: Vec<(Mesh, Vec<Column>)> = houses(33, &mut rng)
+        .iter()
+        .map(|house| {
+            let outline = turned_outline(house, 0.4 * rng.f64());
+            let top = house.max[2];
+            (house_mesh(&outline, top), house_columns(&outline, top))
+        })
+        .collect();
+    let pairs = || {
+        let pairs = houses
+            .iter()
+            .map(|(mesh, columns)| columns.iter().map(move |c| (mesh, c)));
+        pairs.flatten()
+    };
+    let count = pairs().count();
+    let start = Instant::now();
+    let right = pairs().filter(|(mesh, column)| check_column(mesh, column).is_ok());
+    report("solid columns", count, start, right.count());
+
+    let each = 1_000_000 / count;
+    let start = Instant::now();
+    let wrong = pairs().map(|(mesh, column)| sample_column(mesh, column, each, 7).len());
+    report("column samples", each * count, start, wrong.sum());
+
+    let tagged: Vec<(u32, Column)> = (0..)
+        .zip(&houses)
+        .flat_map(|(id, (_, columns))| columns.iter().map(move |column| (id, column.clone())))
+        .collect();
+    let index = ColumnIndex::new(&tagged);
+    let start = Instant::now();
+    let hidden = (0..300_000)
+        .filter(|_| {
+            let [eye, target] = [street_point(33, &mut rng), street_point(33, &mut rng)];
+            index.hiding(eye, target, u32::MAX).is_some()
+        })
+        .count();
+    report("points hidden by columns", 300_000, start, hidden);
+}
+
 fn single_occluders() {
     let mut rng = Rng::with_seed(3);
     let houses = houses(33, &mut rng);
     let occluders: Vec<Occluder> = houses
         .iter()
         .zip(0..)
-        .map(|(house, id)| Occluder {
-            id,
-            inner: *house,
-            grounded: true,
+        .filter_map(|(house, id)| {
+            let solid = Prism::of_box(house, true).ok()?;
+            Some(Occluder { id, solid })
         })
         .collect();
     let start = Instant::now();

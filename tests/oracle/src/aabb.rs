@@ -3,8 +3,7 @@ pub type Point = [f64; 3];
 
 /// An axis-aligned box from `min` to `max`.
 ///
-/// `min[2]` may be minus infinity: a box that reaches down without bound. A box with a NaN, or
-/// with `min >= max` on some axis, has an empty interior.
+/// A box with a NaN, or with `min >= max` on some axis, has an empty interior.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// Lower corner.
@@ -38,25 +37,6 @@ impl Aabb {
     #[must_use]
     pub fn has_volume(&self) -> bool {
         (0..3).all(|axis| self.min[axis] < self.max[axis])
-    }
-
-    /// The same box with its bottom at minus infinity: a grounded occluder and the ground below.
-    #[must_use]
-    pub fn extended_down(&self) -> Self {
-        Self {
-            min: [self.min[0], self.min[1], f64::NEG_INFINITY],
-            max: self.max,
-        }
-    }
-
-    /// What is solid of an occluder: with the ground below if `grounded`. A box without volume is
-    /// no occluder and gets no ground.
-    pub(crate) fn with_ground(&self, grounded: bool) -> Self {
-        if grounded && self.has_volume() {
-            self.extended_down()
-        } else {
-            *self
-        }
     }
 
     /// Whether `point` lies strictly inside.

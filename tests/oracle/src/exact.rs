@@ -50,6 +50,11 @@ impl Number for Rational {
         self * other
     }
 
+    fn over(&self, divisor: &Self) -> Self {
+        debug_assert!(!divisor.is_zero(), "a quotient by zero");
+        self / divisor
+    }
+
     fn compare(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
@@ -60,5 +65,10 @@ impl Number for Rational {
 
     fn larger(&self, other: &Self) -> Self {
         self.max(other).clone()
+    }
+
+    fn sorted(mut numbers: Vec<Self>) -> Option<Vec<Self>> {
+        numbers.sort();
+        Some(numbers)
     }
 }

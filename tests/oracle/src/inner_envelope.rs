@@ -79,7 +79,7 @@ fn check_inside(triangles: &[Triangle], inner: &Aabb, centre: Point) -> Result<(
         return Err(InnerFault::TriangleInside { triangle });
     }
     // The centre is not on the surface, which stays out of the box.
-    let winding = winding_number(triangles, centre).unwrap_or(0);
+    let winding = winding_number(triangles, &centre).unwrap_or(0);
     if winding < 1 {
         return Err(InnerFault::CentreOutside { centre, winding });
     }

@@ -29,22 +29,14 @@ impl Interval {
         }
     }
 
-    /// The difference of two exact numbers.
-    pub(crate) fn difference(a: f64, b: f64) -> Self {
-        Self::outward(a - b, a - b)
+    /// Whether the exact value is known to be zero.
+    fn is_zero(&self) -> bool {
+        self.lo == 0.0 && self.hi == 0.0
     }
 
-    /// The quotient, where `divisor` does not hold zero; everything where it does.
-    pub(crate) fn divide(self, divisor: Self) -> Self {
-        if divisor.lo <= 0.0 && divisor.hi >= 0.0 {
-            return Self::ENTIRE;
-        }
-        hull([
-            self.lo / divisor.lo,
-            self.lo / divisor.hi,
-            self.hi / divisor.lo,
-            self.hi / divisor.hi,
-        ])
+    /// Whether both hold one and the same number only.
+    fn is_same(&self, other: &Self) -> bool {
+        self.lo == self.hi && other.lo == other.hi && self.lo == other.lo
     }
 }
 
@@ -56,15 +48,32 @@ impl Number for Interval {
         }
     }
 
+    // Sums, differences and products that are surely exact stay so: whatever is parallel to an axis
+    // and touches is then decided without rationals.
     fn plus(&self, other: &Self) -> Self {
+        if self.is_zero() {
+            return *other;
+        }
+        if other.is_zero() {
+            return *self;
+        }
         Self::outward(self.lo + other.lo, self.hi + other.hi)
     }
 
     fn minus(&self, other: &Self) -> Self {
+        if other.is_zero() {
+            return *self;
+        }
+        if self.is_same(other) {
+            return Self::from_f64(0.0);
+        }
         Self::outward(self.lo - other.hi, self.hi - other.lo)
     }
 
     fn times(&self, other: &Self) -> Self {
+        if self.is_zero() || other.is_zero() {
+            return Self::from_f64(0.0);
+        }
         hull([
             self.lo * other.lo,
             self.lo * other.hi,
@@ -73,8 +82,23 @@ impl Number for Interval {
         ])
     }
 
+    // Everything where the divisor may be zero.
+    fn over(&self, divisor: &Self) -> Self {
+        if divisor.lo <= 0.0 && divisor.hi >= 0.0 {
+            return Self::ENTIRE;
+        }
+        hull([
+            self.lo / divisor.lo,
+            self.lo / divisor.hi,
+            self.hi / divisor.lo,
+            self.hi / divisor.hi,
+        ])
+    }
+
     fn compare(&self, other: &Self) -> Option<Ordering> {
-        if self.hi < other.lo {
+        if self.is_same(other) {
+            Some(Ordering::Equal)
+        } else if self.hi < other.lo {
             Some(Ordering::Less)
         } else if self.lo > other.hi {
             Some(Ordering::Greater)
@@ -95,6 +119,14 @@ impl Number for Interval {
             lo: self.lo.max(other.lo),
             hi: self.hi.max(other.hi),
         }
+    }
+
+    fn sorted(mut numbers: Vec<Self>) -> Option<Vec<Self>> {
+        numbers.sort_by(|a, b| a.lo.total_cmp(&b.lo));
+        let certain = numbers
+            .windows(2)
+            .all(|pair| pair[0].compare(&pair[1]).is_some());
+        certain.then_some(numbers)
     }
 }
 
@@ -137,10 +169,23 @@ mod tests {
                 prop_assert!(holds(ix.minus(&iy), &(&rx - &ry)));
                 prop_assert!(holds(ix.times(&iy), &(&rx * &ry)));
                 if y != 0.0 {
-                    prop_assert!(holds(ix.divide(iy), &(&rx / &ry)));
+                    prop_assert!(holds(ix.over(&iy), &(&rx / &ry)));
                 }
             }
         }
+    }
+
+    #[test]
+    fn what_is_exact_stays_so() {
+        let [a, b, zero] = [85_000.1, 447_000.3, 0.0].map(Interval::from_f64);
+        assert_eq!(a.minus(&a).compare(&zero), Some(Ordering::Equal));
+        assert_eq!(
+            a.minus(&a).times(&b).plus(&b).compare(&b),
+            Some(Ordering::Equal)
+        );
+        assert_eq!(a.minus(&b).minus(&a.minus(&b)).compare(&zero), None);
+        assert!(Interval::sorted(vec![b, a, zero, a]).is_some());
+        assert!(Interval::sorted(vec![b, a.times(&b), b.times(&a)]).is_none());
     }
 
     #[test]

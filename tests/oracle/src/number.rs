@@ -12,12 +12,26 @@ pub(crate) trait Number: Clone {
     fn minus(&self, other: &Self) -> Self;
     /// The product.
     fn times(&self, other: &Self) -> Self;
+    /// The quotient; of a rational only by what is not zero.
+    fn over(&self, divisor: &Self) -> Self;
     /// The order of the exact values; `None` where this arithmetic cannot tell.
     fn compare(&self, other: &Self) -> Option<Ordering>;
     /// The smaller of two.
     fn smaller(&self, other: &Self) -> Self;
     /// The larger of two.
     fn larger(&self, other: &Self) -> Self;
+    /// The numbers in ascending order; `None` where this arithmetic cannot tell.
+    fn sorted(numbers: Vec<Self>) -> Option<Vec<Self>>;
+}
+
+/// The sign of a number, as its order against zero.
+pub(crate) fn sign_of<N: Number>(number: &N) -> Option<Ordering> {
+    number.compare(&N::from_f64(0.0))
+}
+
+/// The number halfway between two.
+pub(crate) fn middle<N: Number>(a: &N, b: &N) -> N {
+    a.plus(b).times(&N::from_f64(0.5))
 }
 
 /// The cross product.

@@ -1,39 +1,34 @@
 //! What single occluders hide from a point: the limit that occlusion volumes can reach.
 
-use crate::aabb::{Aabb, Point};
+use crate::aabb::{Aabb, Point, is_finite};
 use crate::bvh::{Bvh, Probe};
 use crate::determinant::subtract;
+use crate::prism::Prism;
 use crate::ray_caster::{MAX_COORDINATE, is_usable};
 use crate::segment::segment_meets_interior;
 
-/// The inner envelope of a feature.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A convex part of the solid of a feature.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Occluder {
     /// The feature.
     pub id: u32,
-    /// Its inner envelope.
-    pub inner: Aabb,
-    /// Whether the ground under it is solid down to any depth.
-    pub grounded: bool,
+    /// What of it hides.
+    pub solid: Prism,
 }
 
 /// Whether `occluder` alone hides all of `occludee` from `eye`: the open segments from the eye to
-/// the eight corners meet the open occluder, which reaches down without bound if `grounded`.
+/// the eight corners meet the open prism, which reaches down without bound if it is grounded.
 /// Exact. An eye inside the occluder is hidden from nothing.
 #[must_use]
-pub fn single_occluder_hides(eye: Point, occluder: &Aabb, grounded: bool, occludee: &Aabb) -> bool {
-    solid_hides(eye, &occluder.with_ground(grounded), occludee)
-}
-
-/// The same for an occluder with its ground.
-fn solid_hides(eye: Point, solid: &Aabb, occludee: &Aabb) -> bool {
-    occludee.is_proper()
-        && may_hide(eye, solid, occludee)
-        && !solid.interior_contains(eye)
+pub fn single_occluder_hides(eye: Point, occluder: &Prism, occludee: &Aabb) -> bool {
+    is_finite(eye)
+        && occludee.is_proper()
+        && may_hide(eye, &occluder.bounds, occludee)
         && occludee
             .corners()
             .iter()
-            .all(|&corner| segment_meets_interior(eye, corner, solid))
+            .all(|&corner| segment_meets_interior(eye, corner, occluder))
+        && !occluder.interior_contains(eye)
 }
 
 /// Whether the occluder reaches into the box around the eye and the occludee, as it must.
@@ -57,13 +52,7 @@ pub fn box_hidden_by_any<'a>(
     occluders
         .into_iter()
         .filter(|occluder| occluder.id != occludee_id)
-        .find(|occluder| {
-            solid_hides(
-                eye,
-                &occluder.inner.with_ground(occluder.grounded),
-                occludee,
-            )
-        })
+        .find(|occluder| single_occluder_hides(eye, &occluder.solid, occludee))
         .map(|occluder| occluder.id)
 }
 
@@ -76,27 +65,18 @@ pub struct OccluderIndex {
 }
 
 impl OccluderIndex {
-    /// An index over `occluders`; those that cannot hide (flat, not finite, absurdly far) are left
-    /// out.
+    /// An index over `occluders`.
     #[must_use]
     pub fn new(occluders: &[Occluder]) -> Self {
-        let usable: Vec<Occluder> = occluders
+        let boxes: Vec<Aabb> = occluders
             .iter()
-            .filter(|occluder| {
-                let inner = &occluder.inner;
-                is_usable(inner.min) && is_usable(inner.max) && inner.has_volume()
-            })
-            .copied()
-            .collect();
-        let boxes: Vec<Aabb> = usable
-            .iter()
-            .map(|occluder| searched(&occluder.inner.with_ground(occluder.grounded)))
+            .map(|occluder| searched(&occluder.solid.bounds))
             .collect();
         let bvh = Bvh::new(&boxes);
         let occluders = bvh
             .items()
             .iter()
-            .map(|&item| usable[item as usize])
+            .map(|&item| occluders[item as usize].clone())
             .collect();
         Self { bvh, occluders }
     }
@@ -120,7 +100,7 @@ impl OccluderIndex {
 }
 
 /// The box with a finite bottom, below any eye that is answered.
-fn searched(solid: &Aabb) -> Aabb {
+pub(crate) fn searched(solid: &Aabb) -> Aabb {
     let [x, y, z] = solid.min;
     Aabb {
         min: [x, y, z.max(-MAX_COORDINATE)],

@@ -3,7 +3,8 @@
 
 use proptest::prelude::*;
 
-use crate::aabb::Point;
+use crate::aabb::{Aabb, Point};
+use crate::column::Column;
 
 /// `N` points of one frame.
 pub(crate) fn points<const N: usize>() -> impl Strategy<Value = [Point; N]> {
@@ -35,4 +36,28 @@ pub(crate) fn cases(cases: u32) -> ProptestConfig {
         max_global_rejects: 1_000_000,
         ..ProptestConfig::default()
     }
+}
+
+/// A column around a rectangular hole with its sides at the coordinates of four points, and four
+/// boxes that overlap at its corners and whose interiors together are its interior. `None` if two
+/// points share a coordinate.
+pub(crate) fn ring(points: [Point; 4]) -> Option<(Column, [Aabb; 4])> {
+    let sorted = |axis: usize| {
+        let mut values = points.map(|point| point[axis]);
+        values.sort_by(f64::total_cmp);
+        values
+    };
+    let ([x0, x1, x2, x3], [y0, y1, y2, y3]) = (sorted(0), sorted(1));
+    let [bottom, .., top] = sorted(2);
+    let outer = vec![[x0, y0], [x3, y0], [x3, y3], [x0, y3]];
+    let hole = vec![[x1, y1], [x1, y2], [x2, y2], [x2, y1]];
+    let column = Column::new(&[outer, hole], bottom, top, false).ok()?;
+    let bar = |west, south, east, north| Aabb::new([west, south, bottom], [east, north, top]);
+    let bars = [
+        bar(x0, y0, x3, y1),
+        bar(x0, y2, x3, y3),
+        bar(x0, y0, x1, y3),
+        bar(x2, y0, x3, y3),
+    ];
+    Some((column, bars))
 }

@@ -82,7 +82,7 @@ impl Pierced {
     fn parameter(&self) -> Interval {
         let around = |e: &Estimate| Interval::outward(e.value - e.error, e.value + e.error);
         let [a, b, c] = self.turns.each_ref().map(around);
-        around(&self.side).divide(a.plus(&b).plus(&c))
+        around(&self.side).over(&a.plus(&b).plus(&c))
     }
 }
 

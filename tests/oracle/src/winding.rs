@@ -3,8 +3,8 @@
 use std::cmp::Ordering;
 
 use crate::aabb::{Point, is_finite};
-use crate::determinant::{orientation, turn};
 use crate::mesh::{Mesh, Triangle};
+use crate::test_point::TestPoint;
 
 /// The axes of the plane that a vertical ray is seen in.
 const PLAN: (usize, usize) = (0, 1);
@@ -20,19 +20,23 @@ impl Mesh {
     /// answer means nothing.
     #[must_use]
     pub fn winding_number(&self, point: Point) -> Option<i32> {
-        winding_number(&self.corners()?, point)
+        if !is_finite(point) {
+            return None;
+        }
+        winding_number(&self.corners()?, &point)
     }
 }
 
-/// The winding number of `triangles` around `point`, `None` if it lies on one of them.
-pub(crate) fn winding_number(triangles: &[Triangle], point: Point) -> Option<i32> {
-    if !is_finite(point) {
-        return None;
-    }
+/// The winding number of `triangles` around a finite `point`, `None` if it lies on one of them.
+pub(crate) fn winding_number<'a>(
+    triangles: impl IntoIterator<Item = &'a Triangle>,
+    point: &impl TestPoint,
+) -> Option<i32> {
+    let nearest = point.nearest();
     let mut winding = 0;
     for triangle in triangles
-        .iter()
-        .filter(|triangle| may_cross(triangle, point))
+        .into_iter()
+        .filter(|triangle| may_cross(triangle, nearest))
     {
         if contains(triangle, point) {
             return None;
@@ -53,9 +57,9 @@ fn may_cross(triangle: &Triangle, point: Point) -> bool {
 }
 
 /// Whether the point lies on the closed triangle, which may be degenerate.
-fn contains(triangle: &Triangle, point: Point) -> bool {
+fn contains(triangle: &Triangle, point: &impl TestPoint) -> bool {
     let [a, b, c] = *triangle;
-    orientation(a, b, c, point) == Ordering::Equal
+    point.orientation(a, b, c) == Ordering::Equal
         && [(0, 1), (1, 2), (2, 0)]
             .iter()
             .all(|&axes| shadow_contains(triangle, point, axes))
@@ -63,28 +67,29 @@ fn contains(triangle: &Triangle, point: Point) -> bool {
 
 /// The same in the plane of two axes. A point in the plane of a triangle lies on the triangle
 /// exactly when it does so in all three projections, since one of them at least keeps its shape.
-fn shadow_contains(triangle: &Triangle, point: Point, axes: (usize, usize)) -> bool {
+fn shadow_contains(triangle: &Triangle, point: &impl TestPoint, axes: (usize, usize)) -> bool {
     let [a, b, c] = *triangle;
-    let within = [axes.0, axes.1]
-        .iter()
-        .all(|&i| a[i].min(b[i]).min(c[i]) <= point[i] && point[i] <= a[i].max(b[i]).max(c[i]));
+    let within = [axes.0, axes.1].iter().all(|&i| {
+        point.order(a[i].min(b[i]).min(c[i]), i) != Ordering::Greater
+            && point.order(a[i].max(b[i]).max(c[i]), i) != Ordering::Less
+    });
     let turns = [
-        turn(a, b, point, axes),
-        turn(b, c, point, axes),
-        turn(c, a, point, axes),
+        point.turn(a, b, axes),
+        point.turn(b, c, axes),
+        point.turn(c, a, axes),
     ];
     within && !(turns.contains(&Ordering::Less) && turns.contains(&Ordering::Greater))
 }
 
 /// 1 if the moved ray leaves through the triangle, -1 if it enters, 0 if it misses. The point is
 /// not on the triangle.
-fn crossing(triangle: &Triangle, point: Point) -> i32 {
+fn crossing(triangle: &Triangle, point: &impl TestPoint) -> i32 {
     let [a, b, c] = *triangle;
     let side = moved_turn(a, b, point);
     if side == Ordering::Equal
         || moved_turn(b, c, point) != side
         || moved_turn(c, a, point) != side
-        || orientation(a, b, c, point) != side
+        || point.orientation(a, b, c) != side
     {
         return 0;
     }
@@ -92,9 +97,10 @@ fn crossing(triangle: &Triangle, point: Point) -> i32 {
 }
 
 /// The turn from `a` over `b` to the moved point; equal only if the edge is vertical.
-fn moved_turn(a: Point, b: Point, point: Point) -> Ordering {
+fn moved_turn(a: Point, b: Point, point: &impl TestPoint) -> Ordering {
     // The turn grows by -(b.y - a.y) ε + (b.x - a.x) ε².
-    turn(a, b, point, PLAN)
+    point
+        .turn(a, b, PLAN)
         .then(order(a[1], b[1]))
         .then(order(b[0], a[0]))
 }

@@ -60,3 +60,43 @@ pub fn prism(outline: &[[f64; 2]], bottom: f64, top: f64) -> Mesh {
         triangles: caps.chain(walls).collect(),
     }
 }
+
+/// The closed outward mesh of a solid made of unit cells, scaled and moved: every face of a cell
+/// that no other cell shares, so that it may have passages, courtyards and bridges.
+pub fn cells_mesh(cells: &[[i32; 3]], place: impl Fn([i32; 3]) -> Point) -> Mesh {
+    let mut triangles = Vec::new();
+    for &cell in cells {
+        for (axis, upper) in (0..3).flat_map(|axis| [(axis, 0), (axis, 1)]) {
+            let mut neighbour = cell;
+            neighbour[axis] += 2 * upper - 1;
+            if cells.contains(&neighbour) {
+                continue;
+            }
+            let corner = |s: i32, t: i32| {
+                let mut corner = cell;
+                corner[axis] += upper;
+                corner[(axis + 1) % 3] += s;
+                corner[(axis + 2) % 3] += t;
+                place(corner)
+            };
+            let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+            triangles.extend(if upper == 1 {
+                [[a, b, c], [a, c, d]]
+            } else {
+                [[a, c, b], [a, d, c]]
+            });
+        }
+    }
+    Mesh::from_triangles(&triangles)
+}
+
+/// A house of 10 x 8 m with eaves at 5 m and its ridge at 8 m, along y over x = 5.
+pub fn gable_house(place: impl Fn(Point) -> Point) -> Mesh {
+    let outline = [[0.0, 0.0], [10.0, 0.0], [10.0, 5.0], [5.0, 8.0], [0.0, 5.0]];
+    let standing = prism(&outline, -8.0, 0.0);
+    let vertices = standing.vertices.iter().map(|&[x, z, y]| place([x, -y, z]));
+    Mesh {
+        vertices: vertices.collect(),
+        triangles: standing.triangles,
+    }
+}

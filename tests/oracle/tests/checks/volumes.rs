@@ -1,10 +1,25 @@
 //! Segments, occlusion volumes and single occluders.
 
 use oracle::{
-    Aabb, Occluder, OccluderIndex, Point, VolumeFault, box_hidden_by_any, check_volume,
-    segment_meets_interior, single_occluder_hides,
+    Aabb, Occluder, OccluderIndex, Point, Prism, ShapeFault, VolumeFault, box_hidden_by_any,
+    check_volume, segment_meets_interior, single_occluder_hides,
 };
 use proptest::prelude::*;
+
+/// The prism of a box that has a volume.
+fn prism(aabb: &Aabb, grounded: bool) -> Prism {
+    Prism::of_box(aabb, grounded).unwrap()
+}
+
+/// The check of a volume whose occluder is a box.
+fn check(
+    volume: &Aabb,
+    occluder: &Aabb,
+    grounded: bool,
+    occludee: &Aabb,
+) -> Result<(), VolumeFault> {
+    check_volume(volume, &[prism(occluder, grounded)], occludee)
+}
 
 const UNIT: Aabb = Aabb {
     min: [0.0; 3],
@@ -40,9 +55,13 @@ fn touching_and_grazing_do_not_hide() {
         ("not a number", [f64::NAN, 0.5, 0.5], [2.0, 0.5, 0.5], false),
     ];
     for (what, p, q, expected) in cases {
-        assert_eq!(segment_meets_interior(p, q, &UNIT), expected, "{what}");
         assert_eq!(
-            segment_meets_interior(q, p, &UNIT),
+            segment_meets_interior(p, q, &prism(&UNIT, false)),
+            expected,
+            "{what}"
+        );
+        assert_eq!(
+            segment_meets_interior(q, p, &prism(&UNIT, false)),
             expected,
             "{what}, backwards"
         );
@@ -55,7 +74,7 @@ fn the_last_bit_decides() {
         let aabb = Aabb::new([offset; 3], [offset + 8.0; 3]);
         let along = |z: f64| {
             let [p, q] = [offset - 8.0, offset + 16.0].map(|x| [x, offset + 4.0, z]);
-            segment_meets_interior(p, q, &aabb)
+            segment_meets_interior(p, q, &prism(&aabb, false))
         };
         assert!(!along(offset + 8.0), "{offset}");
         assert!(along((offset + 8.0).next_down()), "{offset}");
@@ -65,7 +84,7 @@ fn the_last_bit_decides() {
                 [offset - 4.0, y - 4.0, offset + 1.0],
                 [offset + 4.0, y + 4.0, offset + 1.0],
             );
-            segment_meets_interior(p, q, &aabb)
+            segment_meets_interior(p, q, &prism(&aabb, false))
         };
         assert!(!past(offset + 8.0), "{offset}");
         assert!(past(offset + 7.5), "{offset}");
@@ -73,46 +92,32 @@ fn the_last_bit_decides() {
 }
 
 #[test]
-fn a_box_without_volume_hides_nothing() {
-    let (p, q) = ([0.5, 0.5, -1.0], [0.5, 0.5, 2.0]);
-    let flat = Aabb::new([0.0; 3], [1.0, 1.0, 0.0]);
-    let inverted = Aabb::new([1.0; 3], [0.0; 3]);
+fn a_box_without_volume_is_refused() {
     let missing = Aabb::new([0.0, 0.0, f64::NAN], [1.0; 3]);
-    for aabb in [flat, inverted, missing] {
-        assert!(!segment_meets_interior(p, q, &aabb), "{aabb:?}");
+    let low = Aabb::new([0.0, 0.0, f64::NEG_INFINITY], [1.0; 3]);
+    let inverted = Aabb::new([1.0; 3], [0.0; 3]);
+    for aabb in [Aabb::new([0.0; 3], [1.0, 1.0, 0.0]), missing, low, inverted] {
+        let fault = Prism::of_box(&aabb, true).unwrap_err();
+        assert!(matches!(fault, ShapeFault::NoHeight { .. }), "{fault}");
     }
-}
-
-#[test]
-fn a_flat_occluder_has_no_ground() {
-    let (mut occluder, occludee) = houses([0.0; 3]);
-    assert!(single_occluder_hides(
-        [10.0, -5.0, 1.7],
-        &occluder,
-        true,
-        &occludee
-    ));
-    occluder.min[2] = occluder.max[2];
-    assert!(!single_occluder_hides(
-        [10.0, -5.0, 1.7],
-        &occluder,
-        true,
-        &occludee
-    ));
-    let volume = Aabb::new([5.0, -10.0, 1.5], [15.0, -1.0, 2.0]);
-    assert!(check_volume(&volume, &occluder, true, &occludee).is_err());
+    let narrow = Aabb::new([0.0; 3], [0.0, 1.0, 1.0]);
+    let mirrored = Aabb::new([1.0, 0.0, 0.0], [0.0, 1.0, 1.0]);
+    for aabb in [narrow, mirrored] {
+        let fault = Prism::of_box(&aabb, true).unwrap_err();
+        assert!(matches!(fault, ShapeFault::NotConvex { .. }), "{fault}");
+    }
 }
 
 #[test]
 fn the_ground_below_hides() {
     let (p, q) = ([-1.0, 0.5, -1e9], [2.0, 0.5, -1e9]);
-    assert!(!segment_meets_interior(p, q, &UNIT));
-    assert!(segment_meets_interior(p, q, &UNIT.extended_down()));
+    assert!(!segment_meets_interior(p, q, &prism(&UNIT, false)));
+    assert!(segment_meets_interior(p, q, &prism(&UNIT, true)));
     // In a wall of it: still only touched.
     assert!(!segment_meets_interior(
         [-1.0, 1.0, -5.0],
         [2.0, 1.0, -5.0],
-        &UNIT.extended_down()
+        &prism(&UNIT, true)
     ));
 }
 
@@ -130,9 +135,9 @@ fn a_volume_in_the_umbra_is_right() {
         let (occluder, occludee) = houses(shift);
         let at = |p: Point| std::array::from_fn(|axis| p[axis] + shift[axis]);
         let volume = Aabb::new(at([5.0, -10.0, 1.5]), at([15.0, -1.0, 2.0]));
-        assert_eq!(check_volume(&volume, &occluder, true, &occludee), Ok(()));
+        assert_eq!(check(&volume, &occluder, true, &occludee), Ok(()));
         // Not grounded, the ray along the ground from z = 1.5 to z = 0 still meets the house.
-        assert_eq!(check_volume(&volume, &occluder, false, &occludee), Ok(()));
+        assert_eq!(check(&volume, &occluder, false, &occludee), Ok(()));
     }
 }
 
@@ -142,7 +147,7 @@ fn a_volume_a_centimetre_out_of_the_umbra_is_found() {
     let volume = |right: f64| Aabb::new([10.0, -10.0, 1.5], [right, -9.0, 2.0]);
     let limit = (0..40_000)
         .map(|step| 10.0 + f64::from(step) * 0.001)
-        .take_while(|&right| check_volume(&volume(right), &occluder, true, &occludee).is_ok())
+        .take_while(|&right| check(&volume(right), &occluder, true, &occludee).is_ok())
         .last()
         .unwrap();
     // In plan, the lines from the right corners of the occludee past the corner (20, 10) of the
@@ -152,10 +157,11 @@ fn a_volume_a_centimetre_out_of_the_umbra_is_found() {
         .flat_map(|y| [30.0, 40.0].map(|from| 20.0 + (10.0 - y) * 5.0 / (from - 10.0)))
         .fold(f64::INFINITY, f64::min);
     assert!((limit - umbra).abs() < 0.002, "{limit} is not {umbra}");
-    let fault = check_volume(&volume(umbra + 0.01), &occluder, true, &occludee).unwrap_err();
+    let fault = check(&volume(umbra + 0.01), &occluder, true, &occludee).unwrap_err();
     let VolumeFault::SegmentMisses {
         volume_corner,
         occludee_corner,
+        ..
     } = fault
     else {
         panic!("another fault: {fault}");
@@ -170,8 +176,8 @@ fn a_claim_of_ground_that_is_not_there_is_found() {
     let (mut occluder, occludee) = houses([0.0; 3]);
     occluder.min[2] = 3.0;
     let volume = Aabb::new([5.0, -10.0, 1.5], [15.0, -5.0, 2.0]);
-    assert_eq!(check_volume(&volume, &occluder, true, &occludee), Ok(()));
-    let fault = check_volume(&volume, &occluder, false, &occludee).unwrap_err();
+    assert_eq!(check(&volume, &occluder, true, &occludee), Ok(()));
+    let fault = check(&volume, &occluder, false, &occludee).unwrap_err();
     assert!(
         matches!(fault, VolumeFault::SegmentMisses { .. }),
         "{fault}"
@@ -183,7 +189,7 @@ fn faults_that_are_no_near_miss() {
     let (occluder, occludee) = houses([0.0; 3]);
     let touching = Aabb::new([4.0, 20.0, 0.0], [5.0, 30.0, 5.0]);
     let covering = Aabb::new([-99.0; 3], [99.0; 3]);
-    let fault = check_volume(&touching, &covering, false, &occludee);
+    let fault = check(&touching, &covering, false, &occludee);
     assert_eq!(
         fault,
         Err(VolumeFault::CommonCorner {
@@ -191,7 +197,7 @@ fn faults_that_are_no_near_miss() {
         })
     );
     let missing = Aabb::new([0.0, f64::NAN, 0.0], [1.0; 3]);
-    let fault = check_volume(&missing, &occluder, true, &occludee).unwrap_err();
+    let fault = check(&missing, &occluder, true, &occludee).unwrap_err();
     assert!(matches!(
         fault,
         VolumeFault::NotABox {
@@ -200,7 +206,7 @@ fn faults_that_are_no_near_miss() {
         }
     ));
     let inverted = Aabb::new(occludee.max, occludee.min);
-    let fault = check_volume(&touching, &occluder, true, &inverted).unwrap_err();
+    let fault = check(&touching, &occluder, true, &inverted).unwrap_err();
     assert!(matches!(
         fault,
         VolumeFault::NotABox {
@@ -208,54 +214,26 @@ fn faults_that_are_no_near_miss() {
             ..
         }
     ));
-    let flat = Aabb::new(occluder.min, [20.0, 0.0, 10.0]);
-    assert!(check_volume(&touching, &flat, true, &occludee).is_err());
+    let fault = check_volume(&covering, &[], &occludee);
+    assert_eq!(fault, Err(VolumeFault::NoOccluder));
 }
 
 #[test]
 fn an_eye_inside_or_a_house_itself_hides_nothing() {
     let (occluder, occludee) = houses([0.0; 3]);
-    assert!(single_occluder_hides(
-        [10.0, -5.0, 1.7],
-        &occluder,
-        true,
-        &occludee
-    ));
-    assert!(!single_occluder_hides(
+    let solid = prism(&occluder, true);
+    let hides = |eye: Point| single_occluder_hides(eye, &solid, &occludee);
+    assert!(hides([10.0, -5.0, 1.7]));
+    for eye in [
         [10.0, 5.0, 1.7],
-        &occluder,
-        true,
-        &occludee
-    ));
-    assert!(!single_occluder_hides(
         [10.0, 5.0, -7.0],
-        &occluder,
-        true,
-        &occludee
-    ));
-    assert!(!single_occluder_hides(
         [10.0, 15.0, 1.7],
-        &occluder,
-        true,
-        &occludee
-    ));
-    assert!(!single_occluder_hides(
         [10.0, -5.0, 30.0],
-        &occluder,
-        true,
-        &occludee
-    ));
-    assert!(!single_occluder_hides(
         [f64::NAN; 3],
-        &occluder,
-        true,
-        &occludee
-    ));
-    let itself = [Occluder {
-        id: 4,
-        inner: occluder,
-        grounded: true,
-    }];
+    ] {
+        assert!(!hides(eye), "{eye:?}");
+    }
+    let itself = [Occluder { id: 4, solid }];
     assert_eq!(
         box_hidden_by_any([10.0, -5.0, 1.7], &itself, 5, &occludee),
         Some(4)
@@ -302,19 +280,21 @@ proptest! {
         let occluders: Vec<Occluder> = boxes
             .iter()
             .zip(0..)
-            .map(|((inner, grounded), id)| Occluder { id, inner: *inner, grounded: *grounded })
+            .filter_map(|((aabb, grounded), id)| {
+                Some(Occluder { id, solid: Prism::of_box(aabb, *grounded).ok()? })
+            })
             .collect();
         let index = OccluderIndex::new(&occluders);
         for [x, y, z] in eyes.iter().map(|eye| eye.map(|step| 0.5 * f64::from(step))) {
             let eye = [85_000.0 + x, 447_000.0 + y, z];
-            for occludee in &occluders {
-                let found = index.hiding(eye, occludee.id, &occludee.inner);
-                let any = box_hidden_by_any(eye, &occluders, occludee.id, &occludee.inner);
+            for (id, (occludee, _)) in (0..).zip(&boxes) {
+                let found = index.hiding(eye, id, occludee);
+                let any = box_hidden_by_any(eye, &occluders, id, occludee);
                 prop_assert_eq!(found.is_some(), any.is_some());
-                if let Some(id) = found {
-                    let Occluder { inner, grounded, .. } = occluders[id as usize];
-                    prop_assert!(id != occludee.id);
-                    prop_assert!(single_occluder_hides(eye, &inner, grounded, &occludee.inner));
+                if let Some(by) = found {
+                    prop_assert!(by != id);
+                    let hider = occluders.iter().find(|occluder| occluder.id == by).unwrap();
+                    prop_assert!(single_occluder_hides(eye, &hider.solid, occludee));
                 }
             }
         }
@@ -329,8 +309,10 @@ proptest! {
         grounded in any::<bool>(),
         weights in proptest::collection::vec((0.0..1.0, 0.0..1.0, 0.0..1.0), 16),
     ) {
-        prop_assume!(check_volume(&volume, &occluder, grounded, &occludee).is_ok());
-        let solid = if grounded { occluder.extended_down() } else { occluder };
+        let Ok(solid) = Prism::of_box(&occluder, grounded) else {
+            return Ok(());
+        };
+        prop_assume!(check_volume(&volume, std::slice::from_ref(&solid), &occludee).is_ok());
         let within = |aabb: &Aabb, (u, v, w): (f64, f64, f64)| {
             let size: Point = std::array::from_fn(|axis| aabb.max[axis] - aabb.min[axis]);
             [aabb.min[0] + u * size[0], aabb.min[1] + v * size[1], aabb.min[2] + w * size[2]]

@@ -14,7 +14,7 @@ mod view_region;
 mod volumes;
 
 pub use box3d::Box3d;
-pub use city::{BoxCity, scattered_city};
+pub use city::{BoxCity, City, CityFeature, CityLayout, generated_city, scattered_city};
 pub use field_of_view::{ViewCone, ViewSector, in_range};
 pub use mesh::{
     Closedness, GROUND_TOLERANCE, InnerEnvelope, MeshDefect, PolygonDefect, TriangleMesh,

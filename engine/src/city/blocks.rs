@@ -87,8 +87,8 @@ impl Plan for Blocks {
                 };
             }
             8..18 => perimeter(&cell, Perimeter::whole, &mut random),
-            18..34 => perimeter(&cell, Perimeter::in_large_parts, &mut random),
-            34..80 => perimeter(&cell, Perimeter::in_parts, &mut random),
+            18..32 => perimeter(&cell, Perimeter::in_large_parts, &mut random),
+            32..82 => perimeter(&cell, Perimeter::in_parts, &mut random),
             _ => free_standing(&cell, &mut random),
         };
         Quarter {
@@ -119,7 +119,7 @@ fn perimeter(
 fn free_standing(cell: &Cell, random: &mut SplitMix64) -> Vec<Solid> {
     let origin = cell.sides[0].start;
     let size = cell.sides[1].end() - origin;
-    let lots = size / LOT;
+    let lots = (size / LOT).max(I64Vec2::ONE);
     let lot = size / lots / GRAIN * GRAIN;
     let places = (0..lots.y).flat_map(|y| (0..lots.x).map(move |x| I64Vec2::new(x, y)));
     let corners = places.map(|place| origin + place * lot);

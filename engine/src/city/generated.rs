@@ -64,12 +64,12 @@ pub fn generated_city(layout: CityLayout, features: usize, seed: u64) -> City {
 
 impl City {
     /// Its features in order, one part of the city in memory at a time.
-    pub fn features(&self) -> impl Iterator<Item = CityFeature> {
+    pub fn features(&self) -> impl Iterator<Item = CityFeature> + use<> {
         self.features_of(0..u32::MAX)
     }
 
     /// The features of some of its parts, as many as the whole city has at the most.
-    pub fn features_of(&self, parts: Range<u32>) -> impl Iterator<Item = CityFeature> {
+    pub fn features_of(&self, parts: Range<u32>) -> impl Iterator<Item = CityFeature> + use<> {
         let Self { layout, seed, .. } = *self;
         parts
             .flat_map(move |part| part_of(layout, seed, part))

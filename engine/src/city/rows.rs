@@ -11,17 +11,23 @@ use super::strip::Strip;
 /// Least and greatest width of a house along its street, units.
 const WIDTH: [i64; 2] = [metres(5), metres(12)];
 
+/// How much wider than its narrowest house any house of a terrace is at the most, units.
+const WIDER: i64 = metres(3);
+
 /// Least and greatest depth of a house, units.
 const DEPTH: [i64; 2] = [metres(8), metres(14)];
 
 /// Least and greatest gap between two terraces that do not touch, units.
 const GAP: [i64; 2] = [metres(2), metres(7)];
 
+/// How far on the next try is where a house found no room, units.
+const RETRY: [i64; 2] = [metres(1), metres(2)];
+
 /// What heights are multiples of, units.
 const RISER: i64 = metres(1) / 8;
 
 /// Once in so many sides of blocks there is no row.
-const EMPTY_SIDES: i64 = 8;
+const EMPTY_SIDES: i64 = 5;
 
 /// Once in so many houses one is much higher than its neighbours.
 const TALL: i64 = 40;
@@ -60,21 +66,25 @@ impl<'a> Rows<'a> {
         }
         let mut along = 0;
         while along < side.steps {
-            let terrace = Terrace::new(side, random);
-            let houses = random.whole(2, 9);
-            for _ in 0..houses {
-                let width = steps_between(side, [terrace.width, terrace.width + metres(3)], random);
-                let house = terrace.house(side, along, width, random);
-                if along + width > side.steps || !self.place(house) {
-                    along += 1 + metres(1) / (side.step.as_dvec2().length() as i64);
-                    break;
-                }
-                along += width;
-            }
-            if random.once_in(3) {
+            along = self.fill_terrace(side, along, random);
+            if random.once_in(2) {
                 along += steps_between(side, GAP, random);
             }
         }
+    }
+
+    /// Builds a terrace until a house finds no room; returns where the next may begin.
+    fn fill_terrace(&mut self, side: &Side, mut along: i64, random: &mut SplitMix64) -> i64 {
+        let terrace = Terrace::new(side, random);
+        for _ in 0..random.whole(2, 9) {
+            let width = steps_between(side, [terrace.width, terrace.width + WIDER], random);
+            let house = terrace.house(side, along, width, random);
+            if along + width > side.steps || !self.place(house) {
+                return along + steps_between(side, RETRY, random);
+            }
+            along += width;
+        }
+        along
     }
 
     /// Builds it where there is room in the block.
@@ -95,7 +105,7 @@ impl Terrace {
     fn new(side: &Side, random: &mut SplitMix64) -> Self {
         Self {
             depth: steps_between(side, DEPTH, random),
-            width: random.whole(WIDTH[0], WIDTH[1] - metres(3)),
+            width: random.whole(WIDTH[0], WIDTH[1] - WIDER),
             eaves: random.whole(metres(6) / RISER, metres(12) / RISER) * RISER,
             gabled: !random.once_in(3),
             faces_front: random.once_in(2),

@@ -10,14 +10,15 @@ use super::rows::{Rows, tower};
 use super::solid::Solid;
 
 /// Length and width of a cell before it is bent, units.
-const PITCH: [f64; 2] = [metres(176) as f64, metres(144) as f64];
+const PITCH: [f64; 2] = [metres(190) as f64, metres(158) as f64];
 
-/// How far a crossing is moved at random, as a share of a cell.
-const JITTER: f64 = 0.07;
+/// How far a crossing is moved at random, as a share of a cell. With [`BEND`] no edge of a cell is
+/// turned by more than 34 degrees, so blocks stay convex and keep room between the widest streets.
+const JITTER: f64 = 0.06;
 
 /// How far whole quarters are moved, as a share of a cell, and how many cells a side they have:
 /// this bends the streets over long distances.
-const BEND: (f64, i64) = (0.36, 6);
+const BEND: (f64, i64) = (0.7, 6);
 
 /// Every so many streets is an avenue.
 const AVENUES: i64 = 5;
@@ -36,7 +37,7 @@ const GRAIN: i64 = metres(1) / 8;
 const SHORTEST_SIDE: i64 = metres(24);
 
 /// Once in so many cells without diagonal there is a square.
-const SQUARES: i64 = 16;
+const SQUARES: i64 = 11;
 
 /// Once in so many blocks there is a tower in the courtyard.
 const TOWERS: i64 = 14;
@@ -97,7 +98,7 @@ impl Streets {
     fn half_width(&self, family: usize, number: i64) -> i64 {
         let mut random = SplitMix64::keyed(self.seed, [WIDTH[family], number, 0]);
         if number.rem_euclid(AVENUES) == 0 {
-            random.whole(metres(8), metres(12))
+            random.whole(metres(7), metres(10))
         } else {
             random.whole(metres(3), metres(7))
         }

@@ -131,7 +131,7 @@ FROM occlusion.make_city('scattered', 100, 1) AS s JOIN regress_2004.feature AS 
 -- Refused; and what is refused leaves nothing behind.
 SELECT statement, pg_temp.outcome('SELECT occlusion.generate_city' || statement)
 FROM (VALUES
-    ($$('regress_a', 'blocks', 326, 1)$$),
+    ($$('regress_a', 'rings', 326, 1)$$),
     ($$('regress_a', '', 326, 1)$$),
     ($$('regress_a', 'scattered', -1, 1)$$),
     ($$('regress_a', 'scattered', 1000001, 1)$$),

@@ -3,54 +3,66 @@
 use super::polygon;
 use crate::error::Refusal;
 use crate::types::Box3d;
-use engine::{BoxCity, scattered_city};
+use engine::{City, CityLayout, generated_city};
 use pgrx::iter::TableIterator;
 use pgrx::{PgSqlErrorCode, name, pg_extern};
 
 /// Features of one generated city at the most.
 const MOST_FEATURES: i32 = 1_000_000;
 
-/// The twelve triangles of a box whose corners are numbered by bits: 1 for x, 2 for y, 4 for z.
-const BOX_TRIANGLES: [i32; 36] = [
-    0, 2, 3, 0, 3, 1, // bottom
-    4, 5, 7, 4, 7, 6, // top
-    0, 1, 5, 0, 5, 4, // front
-    2, 6, 7, 2, 7, 3, // back
-    0, 4, 6, 0, 6, 2, // left
-    1, 3, 7, 1, 7, 5, // right
-];
-
-/// The features of a generated city, each with its box and the box's mesh.
+/// The features of some parts of a generated city, numbered from 1: what each is called, its class,
+/// boxes and mesh, and its one solid column, which stands on the ground.
 #[pg_extern(immutable, strict, parallel_safe)]
 #[allow(clippy::type_complexity, reason = "the columns of the result")]
 fn make_city(
     layout: &str,
     features: i32,
     seed: i64,
+    first_part: i32,
+    parts: i32,
 ) -> TableIterator<
     'static,
     (
         name!(number, i32),
+        name!(kind, &'static str),
+        name!(class, &'static str),
         name!(envelope, Box3d),
+        name!(inner_envelope, Box3d),
         name!(vertices, Vec<f64>),
         name!(triangles, Vec<i32>),
+        name!(footprint, Vec<String>),
+        name!(top, f64),
     ),
 > {
+    let part = |number: i32| u32::try_from(number).unwrap_or_default();
+    let first = part(first_part);
     let city = city(layout, features, seed);
-    TableIterator::new((1..).zip(city.boxes).map(|(number, bounds)| {
-        let vertices = bounds
-            .corners()
-            .iter()
-            .flat_map(|corner| corner.to_array())
-            .collect();
-        (number, Box3d(bounds), vertices, BOX_TRIANGLES.to_vec())
+    let made = city.features_of(first..first.saturating_add(part(parts)));
+    TableIterator::new((1..).zip(made).map(|(number, feature)| {
+        let mesh = &feature.mesh;
+        let vertices = mesh.vertices.iter().flat_map(|vertex| vertex.to_array());
+        let corners = mesh.triangles.as_flattened();
+        (
+            number,
+            feature.kind,
+            feature.class,
+            Box3d(feature.envelope),
+            Box3d(feature.inner_envelope),
+            vertices.collect(),
+            corners.iter().map(|corner| corner.cast_signed()).collect(),
+            polygon::area_text(&feature.column.footprint),
+            feature.column.top,
+        )
     }))
 }
 
 /// The streets of a generated city.
 #[pg_extern(immutable, strict, parallel_safe)]
+#[allow(clippy::type_complexity, reason = "the columns of the result")]
 fn make_city_streets(
     layout: &str,
+    features: i32,
+    seed: i64,
 ) -> TableIterator<
     'static,
     (
@@ -59,7 +71,7 @@ fn make_city_streets(
         name!(eye_high, f64),
     ),
 > {
-    let streets = city(layout, 0, 0).streets;
+    let streets = city(layout, features, seed).streets();
     TableIterator::new(
         streets
             .into_iter()
@@ -67,20 +79,21 @@ fn make_city_streets(
     )
 }
 
-fn city(layout: &str, features: i32, seed: i64) -> BoxCity {
-    if layout != "scattered" {
+fn city(layout: &str, features: i32, seed: i64) -> City {
+    let Some(known) = CityLayout::ALL.into_iter().find(|l| l.name() == layout) else {
+        let [first, second, third] = CityLayout::ALL.map(CityLayout::name);
         Refusal::new(
             PgSqlErrorCode::ERRCODE_INVALID_PARAMETER_VALUE,
             format!("unknown city layout \"{layout}\""),
         )
-        .hint("The layout is 'scattered'.")
+        .hint(format!("The layout is '{first}', '{second}' or '{third}'."))
         .raise();
-    }
+    };
     let count = usize::try_from(features)
         .ok()
         .filter(|_| features <= MOST_FEATURES);
     match count {
-        Some(count) => scattered_city(count, seed.cast_unsigned()),
+        Some(count) => generated_city(known, count, seed.cast_unsigned()),
         None => Refusal::new(
             PgSqlErrorCode::ERRCODE_INVALID_PARAMETER_VALUE,
             format!("number of features {features} is out of bounds"),

@@ -61,11 +61,15 @@ BEGIN
             ),
             mesh AS (
                 INSERT INTO %1$I.mesh (feature, level_of_detail, vertices, triangles)
-                SELECT c.id, '1', c.vertices, c.triangles FROM city AS c
+                SELECT c.id, 1, c.vertices, c.triangles FROM city AS c
             ),
             inner_envelope AS (
                 INSERT INTO %1$I.inner_envelope (feature, box, grounded)
                 SELECT c.id, c.inner_envelope, true FROM city AS c
+            ),
+            solid_column AS (
+                INSERT INTO %1$I.solid_column (feature, footprint, bottom, top, grounded)
+                SELECT c.id, c.footprint::polygon[], 0, c.top, true FROM city AS c
             )
             SELECT count(*) FROM feature
         $q$, scene)

@@ -44,8 +44,8 @@ impl FileFormat {
                 .raise()
             }),
             Self::Vrml97 => formats::write_vrml(models, srid).into_bytes(),
-            Self::CityJson => formats::write_city_json(models, srid),
-            Self::CityJsonSeq => formats::write_city_json_seq(models, srid),
+            Self::CityJson => formats::write_city_json(models, srid).into_bytes(),
+            Self::CityJsonSeq => formats::write_city_json_seq(models, srid).into_bytes(),
         }
     }
 }

@@ -23,6 +23,8 @@ pub(super) struct ReadMaterial<'a> {
     emissive_texture: Option<&'a RawValue>,
     #[serde(borrow)]
     normal_texture: Option<&'a RawValue>,
+    #[serde(borrow)]
+    occlusion_texture: Option<&'a RawValue>,
     alpha_mode: Cow<'a, str>,
     #[serde(borrow)]
     extras: Option<&'a RawValue>,
@@ -48,6 +50,7 @@ impl Default for ReadMaterial<'_> {
             emissive_factor: [0.0; 3],
             emissive_texture: None,
             normal_texture: None,
+            occlusion_texture: None,
             alpha_mode: Cow::Borrowed("OPAQUE"),
             extras: None,
         }
@@ -81,6 +84,7 @@ impl ReadMaterial<'_> {
         let textures = [
             self.emissive_texture,
             self.normal_texture,
+            self.occlusion_texture,
             surface.base_color_texture,
             surface.metallic_roughness_texture,
         ];

@@ -5,11 +5,14 @@
 
 mod box3d;
 mod city;
+mod columns;
 mod convex_pieces;
 mod convex_polygon;
 mod convex_prism;
 mod field_of_view;
 mod mesh;
+mod outer_prism;
+mod predicates;
 mod shadow_region;
 mod solid_column;
 mod umbra;
@@ -18,6 +21,7 @@ mod volumes;
 
 pub use box3d::Box3d;
 pub use city::{BoxCity, scattered_city};
+pub use columns::{ColumnOptions, SolidColumns, solid_columns};
 pub use convex_pieces::{ConvexPieceOptions, convex_pieces};
 pub use convex_prism::ConvexPrism;
 pub use field_of_view::{ViewCone, ViewSector, in_range};
@@ -25,6 +29,7 @@ pub use mesh::{
     Closedness, GROUND_TOLERANCE, InnerEnvelope, MeshDefect, PolygonDefect, TriangleMesh,
     inner_envelope, triangulate,
 };
+pub use outer_prism::OuterPrism;
 pub use shadow_region::ShadowRegion;
 pub use solid_column::SolidColumn;
 pub use umbra::{OCCLUDER_MARGIN, Occluder, ShadowCaster};

@@ -168,6 +168,7 @@ fn kind(defect: &MeshDefect) -> &'static str {
         MeshDefect::InsideOut => "inside out",
         MeshDefect::ZeroVolume => "zero volume",
         MeshDefect::TooThin => "too thin",
+        MeshDefect::TooIntricate { .. } => "too intricate",
     }
 }
 

@@ -97,7 +97,8 @@ fn find_seed(
     None
 }
 
-fn why_no_seed(mesh: &TriangleMesh, envelope: &Box3d) -> MeshDefect {
+/// Why a closed mesh holds nothing that was looked for.
+pub fn why_no_seed(mesh: &TriangleMesh, envelope: &Box3d) -> MeshDefect {
     // Rounding leaves some 1e-16 of the envelope's volume for a mesh that holds nothing.
     let nothing = 1e-12 * envelope.volume();
     match mesh.signed_volume() {

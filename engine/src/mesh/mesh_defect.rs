@@ -32,4 +32,10 @@ pub enum MeshDefect {
     /// The solid is there, but no box was found in it: it is too thin for the finest search grid.
     #[error("too thin for an inner box")]
     TooThin,
+    /// Seen from above, the surface has more corners, crossings or layers than are looked through.
+    #[error("too intricate: more than {limit} corners or layers in plan")]
+    TooIntricate {
+        /// How many are looked through.
+        limit: usize,
+    },
 }

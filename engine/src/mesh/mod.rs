@@ -12,6 +12,7 @@ mod triangle_mesh;
 mod triangulate;
 mod winding_number;
 
+pub(crate) use inner_envelope::why_no_seed;
 pub use inner_envelope::{GROUND_TOLERANCE, InnerEnvelope, inner_envelope};
 pub use mesh_defect::MeshDefect;
 pub use triangle_mesh::{Closedness, TriangleMesh};

@@ -138,7 +138,7 @@ impl TriangleMesh {
     }
 
     /// Checks that the surface is closed and known, so that winding numbers tell in from out.
-    pub(super) fn check_closed(&self) -> Result<(), MeshDefect> {
+    pub(crate) fn check_closed(&self) -> Result<(), MeshDefect> {
         if self.triangles.is_empty() {
             return Err(MeshDefect::NoFaces);
         }

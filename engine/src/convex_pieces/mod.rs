@@ -32,7 +32,7 @@ const INWARD_ALL: f64 = 1e-5;
 const NO_CORNER: f64 = 1e-3;
 
 /// Corners this near to a vertex of the column are that vertex, metres.
-const SAME_VERTEX: f64 = 1e-6;
+const SAME_VERTEX: f64 = 1e-8;
 
 /// How many pieces to look for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -128,7 +128,13 @@ fn certified(piece: Vec<DVec2>, border: &Border) -> Option<Vec<DVec2>> {
     Some(piece.iter().map(exact).collect())
         .filter(is_right)
         .or_else(|| {
-            let within = shrunk(piece, INWARD_ALL).into_iter();
-            Some(within.map(|corner| corner + border.origin).collect()).filter(is_right)
+            let within = without_least_corners(shrunk(piece, INWARD_ALL));
+            Some(
+                within
+                    .into_iter()
+                    .map(|corner| corner + border.origin)
+                    .collect(),
+            )
+            .filter(is_right)
         })
 }

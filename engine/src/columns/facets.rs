@@ -18,6 +18,8 @@ pub struct Facet {
     pub vertices: [u32; 3],
     /// 1 where it faces up, -1 where it faces down, 0 where it is exactly vertical.
     pub faces: i32,
+    /// Area in plan.
+    pub area: f64,
     /// Whether it is wide enough in plan to bound a column from above or below.
     pub is_broad: bool,
 }
@@ -34,6 +36,7 @@ impl Facet {
             corners,
             vertices,
             faces: i32::from(turn > 0.0) - i32::from(turn < 0.0),
+            area: turn.abs() / 2.0,
             is_broad: turn.abs() > NARROW * longest,
         }
     }

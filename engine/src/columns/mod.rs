@@ -12,20 +12,22 @@
 //! Nothing of this is trusted: each column is divided into cells and given out only where every
 //! cell is proven to be solid ([`certificate`]).
 
+mod cells;
 mod certificate;
 mod facets;
-mod footing;
 mod levels;
 mod options;
 mod outline;
 mod plan;
+mod prism;
 mod stacks;
 mod staircase;
 
 use certificate::Certificate;
 use facets::Facets;
-use footing::Footing;
+
 use plan::Plan;
+use prism::prisms;
 use stacks::{Stretch, stacks};
 use staircase::{Goal, Staircase};
 
@@ -34,9 +36,13 @@ pub use options::ColumnOptions;
 use crate::mesh::why_no_seed;
 use crate::{GROUND_TOLERANCE, MeshDefect, SolidColumn, TriangleMesh};
 
-/// A pieces's volume below this share of the solid is nothing: columns are not sought there,
-/// whatever the options, so that their search ends.
+/// Columns that add less than this share of the solid volume are not sought, whatever the options,
+/// so that their search ends.
 const LEAST_GAIN: f64 = 1e-5;
+
+/// A level is tried if it adds this part of what a column must: steps are then at nearly the best
+/// heights for each connected piece.
+const LEVEL_GAIN: f64 = 0.5;
 
 /// The columns of a mesh.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,7 +75,8 @@ pub fn solid_columns(
         return Err(MeshDefect::NotFinite);
     }
     let facets = Facets::new(mesh);
-    let levels = levels::levels(&facets, [envelope.min.z, envelope.max.z]);
+    let least_gain = LEVEL_GAIN * options.least_gain.max(LEAST_GAIN) * mesh.signed_volume().abs();
+    let levels = levels::levels(&facets, [envelope.min.z, envelope.max.z], least_gain);
     let plan = Plan::new(mesh, &facets, &levels)?;
     let stretches = stacks(&plan, &facets, &levels)?;
     let mut search = Search {
@@ -82,7 +89,7 @@ pub fn solid_columns(
         columns: Vec::new(),
     };
     search.run(stretches, options);
-    if search.columns.is_empty() {
+    if search.columns.is_empty() && options.most > 0 || search.volume <= 0.0 {
         return Err(why_no_seed(mesh, &envelope));
     }
     Ok(SolidColumns {
@@ -113,21 +120,24 @@ impl Search<'_> {
             && self.columns.len() < options.most
             && self.covered < self.volume * options.share
         {
-            let (reached, others) = left
+            let (reached, mut others): (Vec<Stretch>, Vec<Stretch>) = left
                 .into_iter()
                 .partition(|stretch| stretch.from <= from && from < stretch.to);
-            left = others;
             self.fill(from, &reached, least_gain, options);
+            let below = reached.iter().filter(|stretch| stretch.from < from);
+            others.extend(below.map(|stretch| stretch.up_to(from, self.levels)));
+            left = others;
             bottom = self.best_bottom(&left, least_gain);
         }
     }
 
     /// The level from which most of the stretches' volume is reached.
     fn best_bottom(&self, left: &[Stretch], least_gain: f64) -> Option<usize> {
-        let mut reached = vec![0.0; self.levels.len()];
+        let mut reached: Vec<f64> = vec![0.0; self.levels.len()];
         for stretch in left {
-            for level in stretch.from..stretch.to {
-                reached[level] += stretch.area * (self.levels[stretch.to] - self.levels[level]);
+            let inside = reached.iter_mut().zip(self.levels).take(stretch.to);
+            for (volume, level) in inside.skip(stretch.from) {
+                *volume += stretch.area * (self.levels[stretch.to] - level);
             }
         }
         let (best, volume) = reached
@@ -142,7 +152,7 @@ impl Search<'_> {
         let goal = Goal {
             enough: options.share * reached.iter().map(|stretch| stretch.volume).sum::<f64>(),
             least_gain: least,
-            most: options.most - self.columns.len(),
+            most: options.most.saturating_sub(self.columns.len()),
         };
         let bottom = self.levels[from];
         let staircase = Staircase::new(self.plan, self.levels, from, reached);
@@ -152,9 +162,12 @@ impl Search<'_> {
         for step in steps {
             let below = step.below.map_or(bottom, |below| tops[below]);
             let triangles = staircase.triangles(step.piece);
-            let footing = Footing::new(self.plan, &triangles);
             let mut top = below;
-            for prism in footing.prisms([bottom, self.levels[step.level]], &mut self.certificate) {
+            let heights = [bottom, self.levels[step.level]];
+            for prism in prisms(self.plan, &triangles, heights, &mut self.certificate) {
+                if self.columns.len() == options.most {
+                    return;
+                }
                 self.covered += prism.area * (prism.top - below).max(0.0);
                 top = prism.top;
                 self.columns.push(SolidColumn {

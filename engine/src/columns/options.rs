@@ -17,9 +17,9 @@ pub struct ColumnOptions {
 impl Default for ColumnOptions {
     fn default() -> Self {
         Self {
-            share: 0.97,
-            most: 16,
-            least_gain: 0.002,
+            share: 0.98,
+            most: 24,
+            least_gain: 0.003,
         }
     }
 }

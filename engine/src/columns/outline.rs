@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use geo::{Coord, LineString, Polygon};
 use glam::DVec2;
 
-use super::plan::Plan;
 use crate::predicates::turn;
 
 /// A computed corner this close to the line between its neighbours is left out, metres: it is on
@@ -33,16 +32,14 @@ pub struct Outline {
 
 impl Outline {
     /// The outline of triangles that hang together by edges; `None` when they have no area.
-    pub fn around(plan: &Plan, triangles: impl IntoIterator<Item = [usize; 3]>) -> Option<Self> {
-        let corner = |&number: &usize| Corner {
-            number,
-            place: plan.places[number],
-            is_exact: number < plan.exact,
-        };
+    pub fn around(
+        triangles: impl IntoIterator<Item = [usize; 3]>,
+        corner: impl Fn(usize) -> Corner,
+    ) -> Option<Self> {
         let rings = rings(triangles).into_iter();
         Self::new(
             rings
-                .map(|ring| ring.iter().map(corner).collect())
+                .map(|ring| ring.into_iter().map(&corner).collect())
                 .collect(),
         )
     }
@@ -58,14 +55,7 @@ impl Outline {
 
     /// Without corners that only divide a straight edge.
     pub fn straightened(&self) -> Option<Self> {
-        let straighten = |ring: &Vec<Corner>| {
-            let mut ring = ring.clone();
-            while let Some(needless) = (0..ring.len()).find(|&i| is_needless(&ring, i)) {
-                ring.remove(needless);
-            }
-            ring
-        };
-        Self::new(self.rings.iter().map(straighten).collect())
+        Self::new(self.rings.iter().map(|ring| straightened(ring)).collect())
     }
 
     /// With computed corners moved inward, so that edges that they end stay `distance` away.
@@ -159,9 +149,25 @@ fn rings(triangles: impl IntoIterator<Item = [usize; 3]>) -> Vec<Vec<usize>> {
     rings
 }
 
-fn is_needless(ring: &[Corner], i: usize) -> bool {
-    let count = ring.len();
-    let [before, corner, after] = [i + count - 1, i, i + 1].map(|i| ring[i % count]);
+fn straightened(ring: &[Corner]) -> Vec<Corner> {
+    let mut ring = ring.to_vec();
+    loop {
+        let count = ring.len();
+        let mut kept: Vec<Corner> = Vec::with_capacity(count);
+        for (i, &corner) in ring.iter().enumerate() {
+            let before = kept.last().unwrap_or(&ring[count - 1]);
+            if !is_needless([before, &corner, &ring[(i + 1) % count]]) {
+                kept.push(corner);
+            }
+        }
+        if kept.len() == count {
+            return ring;
+        }
+        ring = kept;
+    }
+}
+
+fn is_needless([before, corner, after]: [&Corner; 3]) -> bool {
     let (to, from) = (corner.place - before.place, after.place - corner.place);
     if to.dot(from) <= 0.0 {
         // Back along the same line.

@@ -8,6 +8,7 @@ use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 use super::facets::{Facet, Facets};
+use super::outline::Corner;
 use crate::{MeshDefect, TriangleMesh};
 
 /// Most corners of a plan: some hundred megabytes of work, ten times the largest real model seen.
@@ -29,9 +30,19 @@ pub struct Plan {
     pub triangles: Vec<[usize; 3]>,
     /// The triangle across each edge, from each corner to the next; `None` at the rim.
     pub neighbours: Vec<[Option<usize>; 3]>,
+    /// Whether each edge is on an edge of the mesh or a contour.
+    pub is_line: Vec<[bool; 3]>,
 }
 
 impl Plan {
+    pub fn corner(&self, number: usize) -> Corner {
+        Corner {
+            number,
+            place: self.places[number],
+            is_exact: number < self.exact,
+        }
+    }
+
     /// # Errors
     /// [`MeshDefect`] when there are too many corners.
     pub fn new(mesh: &TriangleMesh, facets: &Facets, levels: &[f64]) -> Result<Self, MeshDefect> {
@@ -222,17 +233,22 @@ impl Draft {
             exact,
             triangles: Vec::new(),
             neighbours: Vec::new(),
+            is_line: Vec::new(),
         };
         // The outer face has the first number.
         let number = |index: usize| index.checked_sub(1);
         for face in self.cdt.inner_faces() {
+            let edges = face.adjacent_edges();
             plan.triangles
-                .push(face.vertices().map(|v| v.fix().index()));
-            let across = face.adjacent_edges().map(|edge| {
-                let beyond = edge.rev().face().as_inner();
-                beyond.and_then(|face| number(face.index()))
-            });
-            plan.neighbours.push(across);
+                .push(edges.map(|edge| edge.from().fix().index()));
+            plan.neighbours.push(edges.map(|edge| {
+                edge.rev()
+                    .face()
+                    .as_inner()
+                    .and_then(|face| number(face.index()))
+            }));
+            plan.is_line
+                .push(edges.map(|edge| edge.is_constraint_edge()));
         }
         plan
     }

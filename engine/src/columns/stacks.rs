@@ -24,6 +24,17 @@ pub struct Stretch {
     pub volume: f64,
 }
 
+impl Stretch {
+    /// The part below a level within it.
+    pub fn up_to(&self, level: usize, levels: &[f64]) -> Self {
+        Self {
+            to: level,
+            volume: self.area * (levels[level] - levels[self.from]),
+            ..*self
+        }
+    }
+}
+
 /// A facet over a triangle: its heights there at the corners and at the middle.
 struct Layer {
     heights: [f64; 3],

@@ -123,26 +123,35 @@ impl<'a> Staircase<'a> {
 
     /// The fewest steps that reach the goal, or those that come closest; lower ones first.
     pub fn choose(&self, goal: &Goal) -> Vec<Step> {
-        let is_enough =
-            |steps: &[Step]| steps.len() > goal.most || self.volume(steps) >= goal.enough;
+        let mut chosen: Vec<Step> = Vec::new();
+        let mut volume = 0.0;
         // The price is at least the gain that is asked, so that none adds less.
-        let (mut low, mut high) = (goal.least_gain, self.most_volume());
-        let mut best = self.best(low);
-        if high <= low || !is_enough(&best) {
-            return best;
-        }
-        for _ in 0..PRICES {
-            let price = (low * high).sqrt();
+        let (mut low, mut high) = (goal.least_gain, self.most_volume().max(goal.least_gain));
+        let mut price = low;
+        for _ in 0..=PRICES {
             let steps = self.best(price);
-            if is_enough(&steps) {
-                low = price;
-                best = steps;
+            let covered = self.volume(&steps);
+            let is_few = steps.len() <= goal.most;
+            let is_enough = covered >= goal.enough;
+            let is_better = if is_enough && volume >= goal.enough {
+                steps.len() < chosen.len()
             } else {
-                high = price;
+                covered > volume
+            };
+            if is_few && is_better {
+                (chosen, volume) = (steps, covered);
             }
+            if is_few && !is_enough {
+                high = price;
+            } else {
+                low = price;
+            }
+            if low >= high {
+                break;
+            }
+            price = (low * high).sqrt();
         }
-        best.truncate(goal.most);
-        best
+        chosen
     }
 
     /// The volume that steps cover.

@@ -7,9 +7,9 @@ use std::collections::HashSet;
 use std::time::Instant;
 
 use engine::{
-    Box3d, ConvexPieceOptions, ConvexPrism, LocalGround, Occluder, Site, SolidColumn, Street,
-    TriangleMesh, ViewRegionOptions, VolumeOptions, VolumeSolver, convex_pieces, footprint,
-    inner_envelope, open_space,
+    Box3d, ColumnOptions, ConvexPieceOptions, ConvexPrism, InnerEnvelope, LocalGround, Occluder,
+    Site, SolidColumn, Street, TriangleMesh, ViewRegionOptions, VolumeOptions, VolumeSolver,
+    convex_pieces, footprint, inner_envelope, open_space, solid_columns,
 };
 use formats::{Feature, ReadOptions, read_bytes};
 use geo::{Area, BoundingRect, Contains, Point};
@@ -56,13 +56,13 @@ fn main() {
         streets.len()
     );
     let stands = |house: &House| ground.holds(&house.envelope, house.envelope.min.z);
-    let boxes = occluders(&houses, |house| {
+    let boxes = houses.iter().map(|house| {
         let inner = inner_envelope(&house.mesh).ok();
-        let prism = inner.and_then(|inner| {
-            ConvexPrism::from_box(&inner.bounds, inner.grounded && stands(house))
-        });
-        prism.into_iter().collect()
+        let grounded = |inner: &InnerEnvelope| inner.grounded && stands(house);
+        let prism = inner.and_then(|inner| ConvexPrism::from_box(&inner.bounds, grounded(&inner)));
+        Vec::from_iter(prism)
     });
+    let boxes = occluders(boxes);
     report(
         "inner envelopes",
         &boxes,
@@ -71,21 +71,21 @@ fn main() {
         &eyes,
         volumes,
     );
-    let columns: Vec<Vec<SolidColumn>> = houses.iter().map(House::columns).collect();
-    let count: usize = columns.iter().map(Vec::len).sum();
+    let columns: Vec<Vec<SolidColumn>> = houses
+        .iter()
+        .map(|house| columns(house, stands(house)))
+        .collect();
     let begun = Instant::now();
-    let mut pieces = Vec::new();
-    for (feature, columns) in columns.iter().enumerate() {
-        let prisms = convex_pieces(columns, &options);
-        pieces.extend(prisms.into_iter().map(|prism| Occluder {
-            feature: feature as i64,
-            prism,
-        }));
-    }
+    let pieces: Vec<Vec<ConvexPrism>> = columns
+        .iter()
+        .map(|columns| convex_pieces(columns, &options))
+        .collect();
+    let count: usize = columns.iter().map(Vec::len).sum();
     println!(
         "{count} columns to pieces: {:.2} s",
         begun.elapsed().as_secs_f64()
     );
+    let pieces = occluders(pieces);
     report(
         "convex pieces",
         &pieces,
@@ -131,48 +131,28 @@ impl House {
             foot: self.envelope.min.z,
         }
     }
-
-    /// Stand-in: under the roof faces whose lowest vertex is above each of some heights.
-    fn columns(&self) -> Vec<SolidColumn> {
-        let foot = self.mesh.envelope().expect("faces").min.z;
-        let roof: Vec<[DVec3; 3]> = self
-            .mesh
-            .corners()
-            .filter(|[a, b, c]| (*b - *a).cross(*c - *a).normalize_or_zero().z > 1e-3)
-            .collect();
-        let eave = |corners: &[DVec3; 3]| corners.iter().fold(f64::INFINITY, |z, p| z.min(p.z));
-        let mut heights: Vec<f64> = roof.iter().map(eave).filter(|z| *z > foot + 1.0).collect();
-        heights.sort_by(f64::total_cmp);
-        heights.dedup_by(|a, b| *a - *b < 0.2);
-        let step = heights.len().div_ceil(8).max(1);
-        heights
-            .into_iter()
-            .step_by(step)
-            .flat_map(|top| {
-                let above = roof.iter().filter(|corners| eave(corners) >= top);
-                let mesh = TriangleMesh::from_triangles(above.copied());
-                footprint(&mesh)
-                    .into_iter()
-                    .map(move |footprint| SolidColumn {
-                        footprint,
-                        bottom: foot,
-                        top,
-                        grounded: true,
-                    })
-            })
-            .collect()
-    }
 }
 
-fn occluders(houses: &[House], prisms: impl Fn(&House) -> Vec<ConvexPrism>) -> Vec<Occluder> {
-    let of = |(feature, house)| {
-        let prisms: Vec<ConvexPrism> = prisms(house);
-        prisms.into_iter().map(move |prism| Occluder {
-            feature: feature as i64,
-            prism,
-        })
+/// The solid columns of a house that stands on the ground or hangs over it.
+fn columns(house: &House, stands: bool) -> Vec<SolidColumn> {
+    let found = solid_columns(&house.mesh, &ColumnOptions::default());
+    let grounded = |column: SolidColumn| SolidColumn {
+        grounded: column.grounded && stands,
+        ..column
     };
-    houses.iter().enumerate().flat_map(of).collect()
+    let columns = found.map_or(Vec::new(), |found| found.columns);
+    columns.into_iter().map(grounded).collect()
+}
+
+/// Numbers features in turn.
+fn occluders(prisms: impl IntoIterator<Item = Vec<ConvexPrism>>) -> Vec<Occluder> {
+    let of = |(feature, prisms): (usize, Vec<ConvexPrism>)| {
+        let feature = feature as i64;
+        prisms
+            .into_iter()
+            .map(move |prism| Occluder { feature, prism })
+    };
+    prisms.into_iter().enumerate().flat_map(of).collect()
 }
 
 /// Places on the streets, from a fixed sequence.

@@ -1,7 +1,8 @@
 //! Convex polygons in the plane, corners anticlockwise.
 
 use glam::DVec2;
-use robust::{Coord, orient2d};
+
+use crate::predicates::turn;
 
 /// Corners nearer to each other than this are one, metres: a shorter side would have no direction
 /// after rounding. Leaving a corner out of a convex polygon only makes it smaller.
@@ -16,12 +17,6 @@ pub struct Side {
     pub normal: DVec2,
     /// Of its line `normal · p = offset`.
     pub offset: f64,
-}
-
-/// Twice the area of a triangle, positive when it turns anticlockwise; its sign is exact.
-pub fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
-    let [a, b, c] = [a, b, c].map(|p| Coord { x: p.x, y: p.y });
-    orient2d(a, b, c)
 }
 
 /// Whether a ring turns left at every vertex and goes around once, by exact signs.

@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-use oracle::{Mesh, Triangle};
+use engine::{ConvexPieceOptions, ConvexPrism, SolidColumn, convex_pieces};
+use geo::{Coord, Intersects, Rect};
+use oracle::{Mesh, Prism, ShapeFault, Triangle};
 
 use crate::sql_types::Box3d;
 
@@ -21,6 +23,8 @@ pub struct Feature {
     pub mesh: Option<Mesh>,
     /// Its inner envelope, if it has one.
     pub inner: Option<InnerEnvelope>,
+    /// Its solid columns.
+    pub columns: Vec<SolidColumn>,
 }
 
 /// What hides, as stored.
@@ -33,6 +37,29 @@ pub struct InnerEnvelope {
 }
 
 impl Feature {
+    /// Everything of it that is solid, as columns.
+    pub fn solids(&self) -> impl Iterator<Item = SolidColumn> {
+        let inner = self.inner.iter().map(InnerEnvelope::column);
+        self.columns.iter().cloned().chain(inner)
+    }
+
+    /// Whether a place is in or on something of it that is solid.
+    pub fn is_solid_at(&self, place: [f64; 3]) -> bool {
+        let [x, y, z] = place;
+        let holds = |solid: SolidColumn| {
+            (solid.bottom..=solid.top).contains(&z) && solid.footprint.intersects(&Coord { x, y })
+        };
+        self.envelope.distance(place) == 0.0 && self.solids().any(holds)
+    }
+
+    /// The convex pieces of it that cast occlusion volumes. They are made as the database makes
+    /// them, and the checks find out whether they are what they should be.
+    pub fn pieces(&self) -> Vec<Prism> {
+        let solids: Vec<SolidColumn> = self.solids().collect();
+        let pieces = convex_pieces(&solids, &ConvexPieceOptions::default());
+        pieces.iter().filter_map(|piece| prism(piece).ok()).collect()
+    }
+
     /// Its true surface: the triangles of its mesh, or, where it has none, the faces of its inner
     /// envelope. `None` when the mesh cannot be drawn: an index or a coordinate is wrong.
     pub fn surface(&self) -> Option<Vec<Triangle>> {
@@ -45,8 +72,10 @@ impl Feature {
 
     /// The solid ground under it, down to a height.
     pub fn ground(&self, down_to: f64) -> Vec<Triangle> {
-        match (&self.mesh, &self.inner) {
-            (Some(mesh), Some(inner)) if inner.grounded => oracle::solid_ground(mesh, down_to),
+        match &self.mesh {
+            Some(mesh) if self.solids().any(|solid| solid.grounded) => {
+                oracle::solid_ground(mesh, down_to)
+            }
             _ => Vec::new(),
         }
     }
@@ -59,6 +88,25 @@ impl fmt::Display for Feature {
             None => write!(f, "{} {}", self.class, self.id),
         }
     }
+}
+
+impl InnerEnvelope {
+    /// The same as a column.
+    fn column(&self) -> SolidColumn {
+        let Box3d { min, max } = self.bounds;
+        let corner = |[x, y, _]: [f64; 3]| Coord { x, y };
+        SolidColumn {
+            footprint: Rect::new(corner(min), corner(max)).to_polygon(),
+            bottom: min[2],
+            top: max[2],
+            grounded: self.grounded,
+        }
+    }
+}
+
+fn prism(piece: &ConvexPrism) -> Result<Prism, ShapeFault> {
+    let corners: Vec<[f64; 2]> = piece.footprint().iter().map(|c| c.to_array()).collect();
+    Prism::new(&corners, piece.bottom(), piece.top(), piece.grounded())
 }
 
 /// The twelve triangles of a box.
@@ -98,6 +146,7 @@ mod tests {
                 bounds,
                 grounded: true,
             }),
+            columns: Vec::new(),
         }
     }
 

@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 
+use engine::SolidColumn;
 use oracle::Mesh;
 use postgres::{GenericClient, Row};
 
 use super::feature::{Feature, InnerEnvelope};
-use super::street::Street;
+use super::street::{Street, polygon};
 use crate::database::quoted;
 use crate::failure::Failure;
 
@@ -51,7 +52,33 @@ fn features(client: &mut impl GenericClient, schema: &str) -> Result<Vec<Feature
          LEFT JOIN {schema}.inner_envelope AS i ON i.feature = f.id \
          ORDER BY f.id"
     );
-    Ok(client.query(&statement, &[])?.iter().map(feature).collect())
+    let mut features: Vec<Feature> = client.query(&statement, &[])?.iter().map(feature).collect();
+    add_columns(client, schema, &mut features)?;
+    Ok(features)
+}
+
+/// Gives each feature its solid columns; a footprint without a ring has no place in the table.
+fn add_columns(
+    client: &mut impl GenericClient,
+    schema: &str,
+    features: &mut [Feature],
+) -> Result<(), Failure> {
+    let statement = format!(
+        "SELECT feature, footprint, bottom, top, grounded FROM {schema}.solid_column ORDER BY feature"
+    );
+    for row in client.query(&statement, &[])? {
+        let owner: i64 = row.get(0);
+        let position = features.binary_search_by_key(&owner, |feature| feature.id);
+        if let (Ok(position), Some(footprint)) = (position, polygon(row.get(1))) {
+            features[position].columns.push(SolidColumn {
+                footprint,
+                bottom: row.get(2),
+                top: row.get(3),
+                grounded: row.get(4),
+            });
+        }
+    }
+    Ok(())
 }
 
 fn feature(row: &Row) -> Feature {
@@ -69,6 +96,7 @@ fn feature(row: &Row) -> Feature {
             bounds,
             grounded: row.get(7),
         }),
+        columns: Vec::new(),
     }
 }
 

@@ -18,20 +18,25 @@ pub struct Street {
 impl Street {
     /// From its rings, the outer one first; `None` without any.
     pub fn new(rings: Vec<Ring>, eye_low: f64, eye_high: f64) -> Option<Self> {
-        let line = |ring: Ring| -> LineString<f64> {
-            ring.0.into_iter().map(|[x, y]| Coord { x, y }).collect()
-        };
-        let mut rings = rings.into_iter().map(line);
-        let outer = rings.next()?;
         Some(Self {
-            area: Polygon::new(outer, rings.collect()),
+            area: polygon(rings)?,
             eye_low,
             eye_high,
         })
     }
 }
 
-/// The rings of a polygon as the table `street` holds them.
+/// The polygon of rings, the outer one first; `None` without any.
+pub fn polygon(rings: Vec<Ring>) -> Option<Polygon<f64>> {
+    let line = |ring: Ring| -> LineString<f64> {
+        ring.0.into_iter().map(|[x, y]| Coord { x, y }).collect()
+    };
+    let mut rings = rings.into_iter().map(line);
+    let outer = rings.next()?;
+    Some(Polygon::new(outer, rings.collect()))
+}
+
+/// The rings of a polygon as tables hold them.
 pub fn rings(area: &Polygon<f64>) -> Vec<Ring> {
     let ring = |line: &LineString<f64>| {
         // The closing vertex is left out.

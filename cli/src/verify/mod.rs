@@ -162,7 +162,7 @@ impl Verify {
 }
 
 /// How much was checked.
-fn counts(scene: &Scene, volumes: usize) -> [(&'static str, usize); 4] {
+fn counts(scene: &Scene, volumes: usize) -> [(&'static str, usize); 5] {
     let features = || scene.features.iter();
     [
         ("features", features().count()),
@@ -174,6 +174,7 @@ fn counts(scene: &Scene, volumes: usize) -> [(&'static str, usize); 4] {
             "inner envelopes",
             features().filter(|feature| feature.inner.is_some()).count(),
         ),
+        ("solid columns", features().map(|feature| feature.columns.len()).sum()),
         ("occlusion volumes", volumes),
     ]
 }

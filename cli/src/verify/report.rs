@@ -17,7 +17,7 @@ pub struct Report<'a> {
     /// What was asked for.
     pub verify: &'a Verify,
     /// How many things were checked, with their names.
-    pub counts: [(&'static str, usize); 4],
+    pub counts: [(&'static str, usize); 5],
     /// How many observers stood on volumes.
     pub on_volumes: usize,
     /// What the observers saw.

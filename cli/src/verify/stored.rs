@@ -3,11 +3,15 @@
 use std::collections::HashMap;
 
 use indicatif::ParallelProgressIterator;
-use oracle::{Prism, check_inner_envelope, check_volume};
+use engine::SolidColumn;
+use oracle::{
+    Column, Prism, ShapeFault, check_column, check_grounded, check_inner_envelope,
+    check_piece_in_column, check_volume,
+};
 use rayon::prelude::*;
 
 use super::fault::Fault;
-use crate::scene::{Feature, Scene, Volume};
+use crate::scene::{Feature, Scene, Volume, rings};
 use crate::terminal;
 
 /// Everything that is wrong with the stored meshes and envelopes.
@@ -28,6 +32,7 @@ fn feature_faults(feature: &Feature) -> Vec<String> {
     ]
     .into_iter()
     .flatten()
+    .chain(column_faults(feature))
     .map(|fault| format!("{feature}: {fault}"))
     .collect()
 }
@@ -56,10 +61,52 @@ fn inner_fault(feature: &Feature) -> Option<String> {
     Some(fault.to_string())
 }
 
-/// Checks occlusion volumes against the envelopes of a scene.
+/// Each solid column lies inside the solid, and a grounded one on its foot. Without a mesh the
+/// columns are the solid.
+fn column_faults(feature: &Feature) -> Vec<String> {
+    let Some(mesh) = &feature.mesh else {
+        return Vec::new();
+    };
+    let fault = |(number, solid): (usize, &SolidColumn)| {
+        let fault = match column(solid) {
+            Err(fault) => fault.to_string(),
+            Ok(column) => check_column(mesh, &column)
+                .and_then(|()| match solid.grounded {
+                    true => check_grounded(mesh, &column),
+                    false => Ok(()),
+                })
+                .err()?
+                .to_string(),
+        };
+        Some(format!("solid column {}: {fault}", number + 1))
+    };
+    feature.columns.iter().enumerate().filter_map(fault).collect()
+}
+
+/// A column as the oracle takes it.
+fn column(solid: &SolidColumn) -> Result<Column, ShapeFault> {
+    let rings = rings(&solid.footprint).into_iter().map(|ring| ring.0);
+    let rings: Vec<Vec<[f64; 2]>> = rings.collect();
+    Column::new(&rings, solid.bottom, solid.top, solid.grounded)
+}
+
+/// The convex pieces of a feature, each in something that is stored as solid.
+fn pieces(feature: &Feature) -> Result<Vec<Prism>, String> {
+    let solids: Result<Vec<Column>, ShapeFault> = feature.solids().map(|s| column(&s)).collect();
+    let solids = solids.map_err(|fault| fault.to_string())?;
+    let pieces = feature.pieces();
+    for piece in &pieces {
+        check_piece_in_column(piece, &solids).map_err(|fault| fault.to_string())?;
+    }
+    Ok(pieces)
+}
+
+/// Checks occlusion volumes against what is solid in a scene.
 pub struct VolumeChecker<'a> {
     scene: &'a Scene,
     positions: HashMap<i64, usize>,
+    /// The convex pieces of each feature, or why one of them is none.
+    pieces: Vec<Result<Vec<Prism>, String>>,
 }
 
 impl<'a> VolumeChecker<'a> {
@@ -68,6 +115,7 @@ impl<'a> VolumeChecker<'a> {
         Self {
             scene,
             positions: scene.positions(),
+            pieces: scene.features.par_iter().map(pieces).collect(),
         }
     }
 
@@ -78,24 +126,18 @@ impl<'a> VolumeChecker<'a> {
     }
 
     fn fault(&self, volume: &Volume) -> Option<String> {
-        let find = |id: i64| {
-            self.positions
-                .get(&id)
-                .map(|&position| &self.scene.features[position])
-        };
+        let find = |id: i64| self.positions.get(&id).copied();
         // The tables hold no volume without its features.
         let (occluder, occludee) = (find(volume.occluder)?, find(volume.occludee)?);
-        let fault = match &occluder.inner {
-            None => "the occluder has no inner envelope".to_owned(),
-            Some(inner) => match Prism::of_box(&inner.bounds.into(), inner.grounded) {
-                Err(fault) => fault.to_string(),
-                Ok(hider) => {
-                    check_volume(&volume.bounds.into(), &[hider], &occludee.envelope.into())
-                        .err()?
-                        .to_string()
-                }
-            },
+        let hidden = &self.scene.features[occludee];
+        let fault = match &self.pieces[occluder] {
+            Err(fault) => fault.clone(),
+            Ok(pieces) if pieces.is_empty() => "nothing of the occluder is solid".to_owned(),
+            Ok(pieces) => check_volume(&volume.bounds.into(), pieces, &hidden.envelope.into())
+                .err()?
+                .to_string(),
         };
-        Some(format!("volume of {occluder} hiding {occludee}: {fault}"))
+        let hider = &self.scene.features[occluder];
+        Some(format!("volume of {hider} hiding {hidden}: {fault}"))
     }
 }

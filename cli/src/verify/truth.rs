@@ -1,6 +1,7 @@
 //! [`Truth`], what rays are cast at and by what.
 
 use oracle::{Occluder, OccluderIndex, Point, Prism, RayCaster, Triangle, surface_samples};
+use rayon::prelude::*;
 
 use crate::failure::Failure;
 use crate::scene::{Feature, Scene, Surfaces, number};
@@ -11,7 +12,7 @@ pub struct Truth {
     pub caster: RayCaster,
     /// Points on each feature to aim rays at.
     pub targets: Vec<Vec<Point>>,
-    /// For what single inner envelopes hide.
+    /// For what single convex pieces hide.
     pub occluders: OccluderIndex,
 }
 
@@ -43,17 +44,12 @@ impl Truth {
 }
 
 fn occluders(scene: &Scene) -> Vec<Occluder> {
-    let occluder = |(position, feature): (usize, &Feature)| {
-        let inner = feature.inner.as_ref()?;
-        Some(Occluder {
-            id: number(position),
-            solid: Prism::of_box(&inner.bounds.into(), inner.grounded).ok()?,
+    let pieces: Vec<Vec<Prism>> = scene.features.par_iter().map(Feature::pieces).collect();
+    let numbered = pieces.into_iter().enumerate();
+    numbered
+        .flat_map(|(position, pieces)| {
+            let id = number(position);
+            pieces.into_iter().map(move |solid| Occluder { id, solid })
         })
-    };
-    scene
-        .features
-        .iter()
-        .enumerate()
-        .filter_map(occluder)
         .collect()
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::convex_polygon::turn;
+use crate::predicates::turn;
 
 /// Whether a strictly convex polygon lies wholly within the border whose edges are given, by exact
 /// signs: no edge reaches into it, and a point in it is inside the border (even-odd rule).

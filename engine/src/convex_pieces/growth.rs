@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::convex_polygon::{Side, area, clipped, side};
+use crate::convex_polygon::{Side, area, clipped, side, sides};
 
 /// Cuts of one piece at the most: what needs more is not worth having.
 const MOST_CUTS: usize = 64;
@@ -36,11 +36,10 @@ impl Edge {
         self.depth(other.line.corner) <= TOUCHING && self.depth(other.end) <= TOUCHING
     }
 
-    /// Whether the edge reaches into a convex polygon.
-    fn meets(&self, polygon: &[DVec2]) -> bool {
+    /// Whether the edge reaches into the convex polygon with these sides.
+    fn meets(&self, sides: &[Side]) -> bool {
         let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
-        for i in 0..polygon.len() {
-            let Side { normal, offset, .. } = side(polygon[i], polygon[(i + 1) % polygon.len()]);
+        for Side { normal, offset, .. } in sides {
             let depth = |p: DVec2| offset - TOUCHING - normal.dot(p);
             let (a, b) = (depth(self.line.corner), depth(self.end));
             if a <= 0.0 && b <= 0.0 {
@@ -74,7 +73,8 @@ pub fn piece_around(seed: DVec2, edges: &[Edge], hull: &[DVec2]) -> Option<Vec<D
             .total_cmp(&b.distance_squared(seed))
     });
     for _ in 0..MOST_CUTS {
-        in_the_way.retain(|edge| edge.meets(&piece));
+        let around = sides(&piece);
+        in_the_way.retain(|edge| edge.meets(&around));
         let Some(nearest) = in_the_way.first() else {
             return Some(piece);
         };

@@ -10,7 +10,7 @@ use certificate::lies_inside;
 use glam::DVec2;
 use growth::piece_around;
 
-use crate::convex_polygon::{area, is_strictly_convex, shrunk, sides};
+use crate::convex_polygon::{area, is_strictly_convex, shrunk};
 use crate::{ConvexPrism, SolidColumn};
 
 /// Vertices of a column's footprint above which it is left out, so that a hostile one cannot take
@@ -32,14 +32,14 @@ const INWARD_ALL: f64 = 1e-5;
 const NO_CORNER: f64 = 1e-3;
 
 /// Corners this near to a vertex of the column are that vertex, metres.
-const SAME_VERTEX: f64 = 1e-6;
+const SAME_VERTEX: f64 = 1e-8;
 
 /// How many pieces to look for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConvexPieceOptions {
     /// Pieces of one feature at the most.
     pub most: usize,
-    /// What each further piece must add to the feature's silhouette, as a share of it.
+    /// What each further piece must add, as a share of the silhouette of the first.
     pub least_share: f64,
 }
 
@@ -58,9 +58,9 @@ impl Default for ConvexPieceOptions {
 /// corners are vertices of the column, bit for bit, or lie micrometres inside.
 ///
 /// *Useful*: pieces overlap, since what hides is a whole convex piece and never two parts of it.
-/// They are chosen by what they add to the silhouette of those chosen before, averaged over
-/// directions: a lower wide piece and a higher narrow one are both kept, a piece within another
-/// never is.
+/// They are chosen by how much of their silhouette no single one chosen before shows as well,
+/// averaged over directions: a lower wide piece and a higher narrow one are both kept, a piece
+/// within another never is.
 #[must_use]
 pub fn convex_pieces(columns: &[SolidColumn], options: &ConvexPieceOptions) -> Vec<ConvexPrism> {
     let found: Vec<ConvexPrism> = columns.iter().flat_map(pieces_of_column).collect();
@@ -72,25 +72,13 @@ fn pieces_of_column(column: &SolidColumn) -> Vec<ConvexPrism> {
     let Some(border) = Border::new(&column.footprint, MOST_EDGES) else {
         return Vec::new();
     };
-    let mut grown: Vec<Vec<DVec2>> = Vec::new();
-    for seed in border.seeds().take(MOST_SEEDS) {
-        if grown.iter().any(|piece| holds(piece, seed)) {
-            continue;
-        }
-        grown.extend(piece_around(seed, &border.edges, &border.hull));
-    }
-    grown
-        .into_iter()
+    border
+        .seeds()
+        .take(MOST_SEEDS)
+        .filter_map(|seed| piece_around(seed, &border.edges, &border.hull))
         .filter_map(|piece| certified(without_least_corners(piece), &border))
         .filter_map(|piece| ConvexPrism::new(piece, column.bottom, column.top, column.grounded))
         .collect()
-}
-
-/// Whether a point lies in a convex polygon.
-fn holds(polygon: &[DVec2], point: DVec2) -> bool {
-    sides(polygon)
-        .iter()
-        .all(|side| side.normal.dot(point) <= side.offset)
 }
 
 /// A convex polygon without the corners that cut off the least, down to as many as a prism may
@@ -128,7 +116,13 @@ fn certified(piece: Vec<DVec2>, border: &Border) -> Option<Vec<DVec2>> {
     Some(piece.iter().map(exact).collect())
         .filter(is_right)
         .or_else(|| {
-            let within = shrunk(piece, INWARD_ALL).into_iter();
-            Some(within.map(|corner| corner + border.origin).collect()).filter(is_right)
+            let within = without_least_corners(shrunk(piece, INWARD_ALL));
+            Some(
+                within
+                    .into_iter()
+                    .map(|corner| corner + border.origin)
+                    .collect(),
+            )
+            .filter(is_right)
         })
 }

@@ -34,17 +34,18 @@ impl Silhouette {
         }))
     }
 
-    /// Mean area that is outside the others, square metres.
+    /// Mean area of what no single one of the others shows as well, square metres.
     fn gain(&self, others: &[Self]) -> f64 {
         let outside = |i: usize| {
-            let covers: Vec<Rectangle> = others.iter().map(|other| other.0[i]).collect();
-            uncovered(self.0[i], &covers)
+            let own = self.0[i];
+            let shared = others.iter().map(|other| area(common(own, other.0[i])));
+            area(own) - shared.fold(0.0, f64::max)
         };
         (0..DIRECTIONS).map(outside).sum::<f64>() / DIRECTIONS as f64
     }
 }
 
-/// The prisms that together show the largest silhouette, the largest gain first.
+/// The prisms that show the most that no other one shows, the largest gain first.
 pub fn most_useful(prisms: Vec<ConvexPrism>, options: &ConvexPieceOptions) -> Vec<ConvexPrism> {
     let mut waiting: Vec<(Silhouette, ConvexPrism)> = prisms
         .into_iter()
@@ -52,7 +53,7 @@ pub fn most_useful(prisms: Vec<ConvexPrism>, options: &ConvexPieceOptions) -> Ve
         .collect();
     let mut shown: Vec<Silhouette> = Vec::new();
     let mut chosen = Vec::new();
-    let mut total = 0.0;
+    let mut least = 0.0;
     while chosen.len() < options.most {
         let gains = waiting
             .iter()
@@ -60,8 +61,10 @@ pub fn most_useful(prisms: Vec<ConvexPrism>, options: &ConvexPieceOptions) -> Ve
         let Some((best, gain)) = gains.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) else {
             break;
         };
-        total += gain;
-        if gain <= options.least_share * total {
+        if chosen.is_empty() {
+            least = options.least_share * gain;
+        }
+        if gain <= least {
             break;
         }
         let (silhouette, prism) = waiting.swap_remove(best);
@@ -71,24 +74,11 @@ pub fn most_useful(prisms: Vec<ConvexPrism>, options: &ConvexPieceOptions) -> Ve
     chosen
 }
 
-/// The area of a rectangle outside all others.
-fn uncovered([min, max]: Rectangle, others: &[Rectangle]) -> f64 {
-    if min.cmpge(max).any() {
-        return 0.0;
-    }
-    let Some((&[low, high], others)) = others.split_first() else {
-        return (max - min).element_product();
-    };
-    // Left of the first one, right of it, and between the two below and above it.
-    let [left, right] = [low.x, high.x].map(|x| x.clamp(min.x, max.x));
-    let parts = [
-        [min, DVec2::new(left, max.y)],
-        [DVec2::new(right, min.y), max],
-        [DVec2::new(left, min.y), DVec2::new(right, max.y.min(low.y))],
-        [
-            DVec2::new(left, min.y.max(high.y)),
-            DVec2::new(right, max.y),
-        ],
-    ];
-    parts.into_iter().map(|part| uncovered(part, others)).sum()
+fn common([min, max]: Rectangle, [other_min, other_max]: Rectangle) -> Rectangle {
+    let min = min.max(other_min);
+    [min, max.min(other_max).max(min)]
+}
+
+fn area([min, max]: Rectangle) -> f64 {
+    (max - min).element_product()
 }

@@ -58,16 +58,18 @@ impl Block {
         }
     }
 
-    /// The axis-aligned box over a lane's interval: `span` along `axis`, `lane` across.
-    pub(super) fn volume(&self, axis: usize, lane: [f64; 2], span: [f64; 2]) -> Box3d {
+    /// The axis-aligned box over the streets in a lane's interval: `span` along `axis`, `lane`
+    /// across.
+    pub(super) fn volume(&self, axis: usize, lane: [f64; 2], span: [f64; 2]) -> Option<Box3d> {
+        let span = self.coverage.trimmed(axis, lane, span)?;
         let corner = |i: usize| match axis {
             0 => DVec3::new(span[i], lane[i], self.band[i]),
             _ => DVec3::new(lane[i], span[i], self.band[i]),
         };
-        Box3d {
+        Some(Box3d {
             min: corner(0),
             max: corner(1),
-        }
+        })
     }
 }
 

@@ -54,8 +54,8 @@ impl LaneFiller<'_> {
         if lane[1] - lane[0] < 2.0 * self.smallest || (self.cancelled)() {
             return own;
         }
-        let useful = self.useful(lane, shadows, &own, &covered);
-        if self.possible_area(lane, &useful) - own.area <= self.worth {
+        let (useful, possible) = self.useful(lane, shadows, &own, &covered);
+        if possible - own.area <= self.worth {
             return own;
         }
         let middle = (lane[0] + lane[1]) / 2.0;
@@ -96,66 +96,57 @@ impl LaneFiller<'_> {
                 continue;
             }
             let piece = [start.max(reached), end];
-            if let Some(span) = self.block.coverage.trimmed(self.axis, lane, piece) {
-                let area = self.block.coverage.area(self.axis, lane, span);
-                if area > self.worth {
-                    cover.pieces.push(Piece {
-                        occluder,
-                        lane,
-                        span,
-                    });
-                    cover.area += area;
-                    covered.push(piece);
-                    reached = end;
-                }
+            let area = self.block.coverage.area(self.axis, lane, piece);
+            if area > self.worth {
+                cover.pieces.push(Piece {
+                    occluder,
+                    lane,
+                    span: piece,
+                });
+                cover.area += area;
+                covered.push(piece);
+                reached = end;
             }
         }
         (cover, covered)
     }
 
-    /// The shadows that can still matter in parts of the lane: those in use, and those that
-    /// reach beyond what is covered.
+    /// The shadows that can still matter in parts of the lane, those in use and those that reach
+    /// beyond what is covered; and the street area within reach of any: no cover can serve more.
     fn useful<'s>(
         &self,
         lane: [f64; 2],
         shadows: &[&'s Shadow],
         own: &Cover,
         covered: &[[f64; 2]],
-    ) -> Vec<&'s Shadow> {
+    ) -> (Vec<&'s Shadow>, f64) {
         let inside = |reach: [f64; 2]| {
             covered
                 .iter()
                 .any(|span| span[0] <= reach[0] && reach[1] <= span[1])
         };
         let used = |shadow: &Shadow| own.pieces.iter().any(|p| p.occluder == shadow.occluder);
-        shadows
+        let (useful, reaches) = shadows
             .iter()
-            .copied()
-            .filter(|shadow| {
-                let reach = shadow.region.reach(self.axis, lane[0], lane[1]);
-                reach.is_some_and(|reach| used(shadow) || !inside(reach))
-            })
-            .collect()
+            .filter_map(|&s| Some((s, s.region.reach(self.axis, lane[0], lane[1])?)))
+            .filter(|&(shadow, reach)| !inside(reach) || used(shadow))
+            .unzip();
+        (useful, self.area_of_union(lane, reaches))
     }
 
-    /// Street area within reach of any of the shadows: no cover can serve more.
-    fn possible_area(&self, lane: [f64; 2], shadows: &[&Shadow]) -> f64 {
-        let mut reaches: Vec<[f64; 2]> = shadows
-            .iter()
-            .filter_map(|s| s.region.reach(self.axis, lane[0], lane[1]))
-            .collect();
-        reaches.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let mut reached = f64::NEG_INFINITY;
-        let mut total = 0.0;
-        for [start, end] in reaches {
-            if end > reached {
-                total += self
-                    .block
-                    .coverage
-                    .area(self.axis, lane, [start.max(reached), end]);
-                reached = end;
+    /// Street area of a lane within any of some intervals.
+    fn area_of_union(&self, lane: [f64; 2], mut spans: Vec<[f64; 2]>) -> f64 {
+        spans.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+        spans.dedup_by(|next, last| {
+            let joined = next[0] <= last[1];
+            if joined {
+                last[1] = last[1].max(next[1]);
             }
-        }
-        total
+            joined
+        });
+        spans
+            .into_iter()
+            .map(|span| self.block.coverage.area(self.axis, lane, span))
+            .sum()
     }
 }

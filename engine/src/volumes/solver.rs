@@ -110,10 +110,12 @@ impl VolumeSolver {
             }
             let shadows = self.shadows(occludee, envelope, block);
             let (axis, cover) = self.best_cover(block, &shadows, &cancelled);
-            found.extend(cover.pieces.iter().map(|piece| OcclusionVolume {
-                occluder: self.casters[piece.occluder].feature,
-                occludee,
-                bounds: block.volume(axis, piece.lane, piece.span),
+            found.extend(cover.pieces.iter().filter_map(|piece| {
+                Some(OcclusionVolume {
+                    occluder: self.casters[piece.occluder].feature,
+                    occludee,
+                    bounds: block.volume(axis, piece.lane, piece.span)?,
+                })
             }));
         }
         (!cancelled()).then_some(found)
@@ -139,9 +141,10 @@ impl VolumeSolver {
             .filter_map(|position| {
                 let caster = &self.casters[position].shape;
                 let region = caster.umbra_in_band(envelope, block.band, block.window)?;
+                let worth = self.options.worth;
                 let [min, max] = region.rectangle();
-                let area = block.coverage.area(0, [min.y, max.y], [min.x, max.x]);
-                (area > self.options.worth).then_some(Shadow {
+                let area = || block.coverage.area(0, [min.y, max.y], [min.x, max.x]);
+                (region.area() > worth && area() > worth).then_some(Shadow {
                     occluder: position,
                     region,
                 })

@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use crate::aabb::Point;
 use crate::exact::{sign, vector};
+use crate::interval::Interval;
 use crate::number::{cross, difference, dot};
 
 /// Relative error of a determinant whose entries are differences rounded once. A term of three
@@ -49,6 +50,11 @@ impl Estimate {
         } else {
             None
         }
+    }
+
+    /// An interval that holds the exact value.
+    pub(crate) fn interval(&self) -> Interval {
+        Interval::outward(self.value - self.error, self.value + self.error)
     }
 }
 
@@ -104,10 +110,22 @@ pub(crate) fn orientation(a: Point, b: Point, c: Point, d: Point) -> Ordering {
 }
 
 /// Greater if `a`, `b`, `c` turn anticlockwise in the plane of the axes `i` and `j`.
-pub(crate) fn turn(a: Point, b: Point, c: Point, (i, j): (usize, usize)) -> Ordering {
+pub(crate) fn turn(a: Point, b: Point, c: Point, axes: (usize, usize)) -> Ordering {
+    determinant_sign(turn_rows(a, b, c, axes))
+}
+
+/// Twice the area of the triangle `a`, `b`, `c` in plan, positive if they turn anticlockwise.
+#[inline]
+pub(crate) fn plan_estimate(a: Point, b: Point, c: Point) -> Estimate {
+    let [u, v, w] = turn_rows(a, b, c, (0, 1)).map(|row| row.rounded());
+    estimate(u, v, w)
+}
+
+#[inline]
+fn turn_rows(a: Point, b: Point, c: Point, (i, j): (usize, usize)) -> [Row; 3] {
     let flat = |p: Point| [p[i], p[j], 0.0];
     let up = Row::new([0.0, 0.0, 1.0], [0.0; 3]);
-    determinant_sign([Row::new(flat(a), flat(c)), Row::new(flat(b), flat(c)), up])
+    [Row::new(flat(a), flat(c)), Row::new(flat(b), flat(c)), up]
 }
 
 #[cfg(test)]

@@ -29,6 +29,13 @@ impl Interval {
         }
     }
 
+    fn negated(self) -> Self {
+        Self {
+            lo: -self.hi,
+            hi: -self.lo,
+        }
+    }
+
     /// Whether the exact value is known to be zero.
     fn is_zero(&self) -> bool {
         self.lo == 0.0 && self.hi == 0.0
@@ -87,12 +94,15 @@ impl Number for Interval {
         if divisor.lo <= 0.0 && divisor.hi >= 0.0 {
             return Self::ENTIRE;
         }
-        hull([
-            self.lo / divisor.lo,
-            self.lo / divisor.hi,
-            self.hi / divisor.lo,
-            self.hi / divisor.hi,
-        ])
+        // By a positive divisor; a quotient has one sign at each end.
+        let (over, by) = if divisor.lo > 0.0 {
+            (*self, *divisor)
+        } else {
+            (self.negated(), divisor.negated())
+        };
+        let low = if over.lo < 0.0 { by.lo } else { by.hi };
+        let high = if over.hi < 0.0 { by.hi } else { by.lo };
+        Self::outward(over.lo / low, over.hi / high)
     }
 
     fn compare(&self, other: &Self) -> Option<Ordering> {

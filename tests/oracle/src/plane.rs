@@ -30,6 +30,10 @@ pub(crate) fn ring_edges(ring: &[PlanPoint]) -> impl Iterator<Item = Edge> {
 
 /// Greater if `a`, `b`, `c` turn anticlockwise. Exact.
 pub(crate) fn plan_turn(a: PlanPoint, b: PlanPoint, c: PlanPoint) -> Ordering {
+    // Corners against edges that they end are common, and dear in rationals.
+    if c == a || c == b {
+        return Ordering::Equal;
+    }
     let [a, b, c] = [a, b, c].map(|[x, y]| [x, y, 0.0]);
     turn(a, b, c, (0, 1))
 }

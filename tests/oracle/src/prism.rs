@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 
 use crate::aabb::{Aabb, Point};
+use crate::determinant::plan_estimate;
 use crate::exact::Rational;
 use crate::footprint::{ShapeFault, check_corners, check_heights};
 use crate::interval::Interval;
@@ -64,16 +65,38 @@ impl Prism {
         Self::new(&corners, bottom, top, grounded)
     }
 
-    /// The depths of a point of finite coordinates.
-    pub(crate) fn depths<N: Number>(&self, [x, y, z]: Point) -> Depths<N> {
-        let (plan, height) = (spot([x, y]), N::from_f64(z));
-        let sides = self
-            .edges
-            .iter()
-            .map(|[u, v]| doubled_area(&spot(*u), &spot(*v), &plan));
-        let above = N::from_f64(self.top).minus(&height);
-        let below = (!self.grounded).then(|| height.minus(&N::from_f64(self.bottom)));
-        Depths(sides.chain([above]).chain(below).collect())
+    /// The depths of a point of finite coordinates, by the filter.
+    pub(crate) fn depths(&self, point: Point) -> Depths<Interval> {
+        let [x, y, _] = point;
+        self.depths_by(point, |[u, v]| {
+            let quick = plan_estimate([u[0], u[1], 0.0], [v[0], v[1], 0.0], [x, y, 0.0]);
+            match quick.sign() {
+                Some(_) => quick.interval(),
+                // Intervals know zero where a side is parallel to an axis.
+                None => doubled_area(&spot(*u), &spot(*v), &spot([x, y])),
+            }
+        })
+    }
+
+    /// The same in rationals.
+    fn exact_depths(&self, point: Point) -> Depths<Rational> {
+        let at = spot([point[0], point[1]]);
+        self.depths_by(point, |[u, v]| doubled_area(&spot(*u), &spot(*v), &at))
+    }
+
+    fn depths_by<N: Number>(
+        &self,
+        [_, _, z]: Point,
+        depth_of_side: impl Fn(&Edge) -> N,
+    ) -> Depths<N> {
+        let height = N::from_f64(z);
+        let below_top = N::from_f64(self.top).minus(&height);
+        let above_bottom = (!self.grounded).then(|| height.minus(&N::from_f64(self.bottom)));
+        let mut depths = Vec::with_capacity(self.edges.len() + 2);
+        depths.extend(self.edges.iter().map(depth_of_side));
+        depths.push(below_top);
+        depths.extend(above_bottom);
+        Depths(depths)
     }
 
     /// Whether the open segment between two finite points meets the interior; `depths` are theirs,
@@ -83,15 +106,15 @@ impl Prism {
             return false;
         }
         passes(depths[0], depths[1])
-            .or_else(|| passes(&self.depths::<Rational>(p), &self.depths(q)))
+            .or_else(|| passes(&self.exact_depths(p), &self.exact_depths(q)))
             // Rationals always decide.
             .unwrap_or(false)
     }
 
     /// Whether a finite point lies strictly inside. Exact.
     pub(crate) fn interior_contains(&self, point: Point) -> bool {
-        is_deep(&self.depths::<Interval>(point))
-            .or_else(|| is_deep(&self.depths::<Rational>(point)))
+        is_deep(&self.depths(point))
+            .or_else(|| is_deep(&self.exact_depths(point)))
             // Rationals always decide.
             .unwrap_or(false)
     }

@@ -80,9 +80,8 @@ impl Pierced {
     /// The parameter of the piercing point, `A · (B x C)` over the sum of the turns, which is
     /// direction · normal.
     fn parameter(&self) -> Interval {
-        let around = |e: &Estimate| Interval::outward(e.value - e.error, e.value + e.error);
-        let [a, b, c] = self.turns.each_ref().map(around);
-        around(&self.side).over(&a.plus(&b).plus(&c))
+        let [a, b, c] = self.turns.each_ref().map(Estimate::interval);
+        self.side.interval().over(&a.plus(&b).plus(&c))
     }
 }
 

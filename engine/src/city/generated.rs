@@ -8,9 +8,10 @@ use glam::I64Vec2;
 use super::blocks::Blocks;
 use super::cell::Cell;
 use super::feature::CityFeature;
+use super::paving::Paving;
 use super::solid::Solid;
 use super::streets::Streets;
-use super::{hilbert, paving, scattered, street};
+use super::{hilbert, scattered, street};
 use crate::Street;
 
 /// Boxes in one part of a scattered city.
@@ -76,32 +77,34 @@ impl City {
             .take(self.features)
     }
 
-    /// Where observers can be: streets around every cell with a feature, and squares.
-    #[must_use]
-    pub fn streets(&self) -> Vec<Street> {
+    /// Where observers can be: streets around every cell with a feature, and squares. They come in
+    /// the order of the features, made one cell after the other.
+    pub fn streets(&self) -> Box<dyn Iterator<Item = Street>> {
+        let Self { seed, features, .. } = *self;
         match self.layout {
-            CityLayout::Scattered => vec![scattered::main_street()],
-            CityLayout::Blocks => self.streets_of(&Blocks { seed: self.seed }),
-            CityLayout::Streets => self.streets_of(&Streets::new(self.seed)),
+            CityLayout::Scattered => Box::new(std::iter::once(scattered::main_street())),
+            CityLayout::Blocks => Box::new(streets_of(Blocks { seed }, features)),
+            CityLayout::Streets => Box::new(streets_of(Streets::new(seed), features)),
         }
     }
+}
 
-    fn streets_of(&self, plan: &impl Plan) -> Vec<Street> {
-        let mut cells = Vec::new();
-        let mut squares = Vec::new();
-        let mut solids = 0;
-        for at in (0..u32::MAX).map(hilbert::cell) {
-            let quarter = plan.quarter(at);
-            solids += quarter.solids.len();
-            squares.extend(quarter.square);
-            cells.push(at);
-            if solids >= self.features {
-                break;
-            }
-        }
-        let streets = paving::streets(cells, |at| plan.cell(at));
-        streets.into_iter().chain(squares).map(street).collect()
-    }
+/// The streets of the first cells that hold so many features; of one cell if there are none.
+fn streets_of(plan: impl Plan, features: usize) -> impl Iterator<Item = Street> {
+    let mut paving = Paving::default();
+    let mut wanted = Some(features);
+    let cells = (0..u32::MAX).map(hilbert::cell);
+    let areas = cells.map_while(move |at| {
+        let quarter = plan.quarter(at);
+        wanted = match wanted?.saturating_sub(quarter.solids.len()) {
+            0 => None,
+            more => Some(more),
+        };
+        let mut areas = paving.around(at, |at| plan.cell(at));
+        areas.extend(quarter.square);
+        Some(areas)
+    });
+    areas.flatten().map(street)
 }
 
 fn part_of(layout: CityLayout, seed: u64, part: u32) -> Vec<CityFeature> {

@@ -11,16 +11,17 @@ use super::lattice::line_string;
 const RIGHT: I64Vec2 = I64Vec2::X;
 const UP: I64Vec2 = I64Vec2::Y;
 
-/// The streets around all `cells`, each piece once, in the order of the cells. They fill the ground
-/// between the blocks without gap or overlap, since all share their corners.
-pub fn streets(
-    cells: impl IntoIterator<Item = I64Vec2>,
-    cell: impl Fn(I64Vec2) -> Cell,
-) -> Vec<Polygon<f64>> {
-    let mut made = HashSet::new();
-    let mut pieces = Vec::new();
-    for at in cells {
-        let pieces_of_cell = [
+/// Streets in the making. Their pieces fill the ground between the blocks without gap or overlap,
+/// since all share their corners.
+#[derive(Default)]
+pub struct Paving {
+    made: HashSet<(I64Vec2, Piece)>,
+}
+
+impl Paving {
+    /// The pieces around a cell that were not made before.
+    pub fn around(&mut self, at: I64Vec2, cell: impl Fn(I64Vec2) -> Cell) -> Vec<Polygon<f64>> {
+        let pieces = [
             (at, Piece::Lower),
             (at + RIGHT, Piece::Left),
             (at + UP, Piece::Lower),
@@ -31,13 +32,10 @@ pub fn streets(
             (at + UP, Piece::Crossing),
             (at, Piece::Diagonal),
         ];
-        for (at, piece) in pieces_of_cell {
-            if made.insert((at, piece)) {
-                pieces.extend(polygon(at, piece, &cell));
-            }
-        }
+        let new = pieces.into_iter().filter(|&piece| self.made.insert(piece));
+        new.filter_map(|(at, piece)| polygon(at, piece, &cell))
+            .collect()
     }
-    pieces
 }
 
 /// A piece of street that belongs to a cell.

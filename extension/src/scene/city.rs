@@ -72,11 +72,7 @@ fn make_city_streets(
     ),
 > {
     let streets = city(layout, features, seed).streets();
-    TableIterator::new(
-        streets
-            .into_iter()
-            .map(|s| (polygon::area_text(&s.area), s.eye_low, s.eye_high)),
-    )
+    TableIterator::new(streets.map(|s| (polygon::area_text(&s.area), s.eye_low, s.eye_high)))
 }
 
 fn city(layout: &str, features: i32, seed: i64) -> City {

@@ -160,20 +160,16 @@ impl<'a> Iterator for RootMembers<'a> {
     type Item = (&'a [u8], &'a [u8]);
 
     fn next(&mut self) -> Option<Self::Item> {
-        let mut depth = 0_usize;
-        let mut last: Option<&[u8]> = None;
-        let first_value = loop {
+        loop {
             match self.0.next()? {
-                Token::Text(text) => last = Some(text),
-                // The scanner starts inside of the root object after the first member.
-                Token::Mark(b':') if depth <= 1 => break last?,
-                Token::Mark(b'{' | b'[') => depth += 1,
-                Token::Mark(b'}' | b']') => depth = depth.checked_sub(1)?,
-                Token::Mark(_) => (),
+                Token::Text(name) => {
+                    let is_name = matches!(self.0.next()?, Token::Mark(b':'));
+                    return is_name.then(|| (name, self.0.value()));
+                }
+                Token::Mark(b'{' | b',') => (),
+                Token::Mark(_) => return None,
             }
-        };
-        let value = self.0.value();
-        Some((first_value, value))
+        }
     }
 }
 

@@ -126,7 +126,7 @@ fn flat_surfaces(footprint: &Footprint, z: f64) -> RoofSurfaces {
 
 /// A roof, never lower than the bottom.
 fn roof_over(footprint: &Footprint, bottom: f64, top: Top, roof: &Roof) -> Option<RoofSurfaces> {
-    if footprint.rings().iter().map(Vec::len).sum::<usize>() > MAX_ROOFED_VERTICES {
+    if footprint.vertices() > MAX_ROOFED_VERTICES {
         return None;
     }
     let frame = Frame::of(footprint)?;

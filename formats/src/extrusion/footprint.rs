@@ -58,6 +58,11 @@ impl Footprint {
         &self.rings
     }
 
+    /// How many vertices the rings have.
+    pub(crate) fn vertices(&self) -> usize {
+        self.rings.iter().map(Vec::len).sum()
+    }
+
     /// The area with its holes taken out, square metres.
     pub(crate) fn area(&self) -> f64 {
         self.rings.iter().map(|ring| signed_area(ring)).sum()

@@ -25,6 +25,9 @@ pub(crate) use strip::{Ends, strips};
 /// Height of a storey where only storeys are counted, metres.
 pub(crate) const LEVEL_HEIGHT: f64 = 3.0;
 
+/// Most vertices of the footprints of one feature; as surfaces they take up to 250 bytes each.
+pub(crate) const MAX_FEATURE_VERTICES: usize = 1_000_000;
+
 /// A position in plan, metres.
 pub(crate) type Plan = [f64; 2];
 

@@ -9,7 +9,9 @@ use super::properties::{Properties, checked, name_of, within};
 use super::reference::Reference;
 use super::{FeatureError, numbered};
 use crate::error::{Problem, quote};
-use crate::extrusion::{Appearance, Ends, Extruded, Footprint, Plan, Top, strips};
+use crate::extrusion::{
+    Appearance, Ends, Extruded, Footprint, MAX_FEATURE_VERTICES, Plan, Top, strips,
+};
 use crate::limits::MAX_COORDINATE;
 use crate::scene::{self, Feature, Skipped, Street, Surface};
 
@@ -154,6 +156,10 @@ impl Object<'_> {
 
     fn solids(&self, areas: &[Area], properties: Properties) -> Result<Read, &'static str> {
         let [base, height] = properties.heights()?;
+        let vertices = areas.iter().map(|area| area.footprint.vertices());
+        if vertices.sum::<usize>() > MAX_FEATURE_VERTICES {
+            return Err("more than 1000000 vertices");
+        }
         let solid = |area: &Area| {
             let (bottom, top) = (area.z + base, Top::Ridge(area.z + height));
             let (solid, _) = Extruded::new(&area.footprint, bottom, top, None)?;

@@ -12,7 +12,7 @@ use crate::error::{Problem, shorten};
 use crate::extrusion::Plan;
 use crate::input::ReadOptions;
 use crate::limits::MAX_COORDINATE;
-use crate::projection::{Projection, is_geographic};
+use crate::projection::{Bounds, Projection, is_geographic};
 
 /// EPSG codes of longitude and latitude in WGS 84, in two and three dimensions.
 const WGS_84: [i32; 2] = [4326, 4979];
@@ -97,7 +97,7 @@ fn wrong(position: &Position, expected: &'static str) -> Problem {
 
 /// The middle of the box around all positions.
 fn centre(document: &Document<'_>) -> Result<Option<Plan>, FeatureError> {
-    let mut bounds: Option<[Plan; 2]> = None;
+    let mut bounds = Bounds::default();
     for (number, raw) in document.features.iter().enumerate() {
         let inside = |problem| FeatureError {
             feature: Some(numbered(number)),
@@ -108,15 +108,10 @@ fn centre(document: &Document<'_>) -> Result<Option<Plan>, FeatureError> {
         };
         for position in geometry.positions() {
             geographic(position).map_err(inside)?;
-            let p = position.plan;
-            let [low, high] = bounds.unwrap_or([p; 2]);
-            bounds = Some([
-                [low[0].min(p[0]), low[1].min(p[1])],
-                [high[0].max(p[0]), high[1].max(p[1])],
-            ]);
+            bounds.add(position.plan);
         }
     }
-    Ok(bounds.map(|[low, high]| [(low[0] + high[0]) / 2.0, (low[1] + high[1]) / 2.0]))
+    Ok(bounds.centre())
 }
 
 #[derive(serde::Deserialize)]

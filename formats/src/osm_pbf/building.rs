@@ -1,28 +1,24 @@
 //! Buildings and their parts.
 
-use std::collections::HashMap;
-
-use geo::{Contains, InteriorPoint, Point, Polygon};
-use rstar::RTree;
-use rstar::primitives::{GeomWithData, Rectangle};
-
 use super::tags::Tags;
 use super::vertical::Vertical;
-use crate::error::Problem;
-use crate::extrusion::{Appearance, Extruded, Footprint};
+use crate::extrusion::{Appearance, Extruded, Footprint, MAX_FEATURE_VERTICES};
 use crate::scene::{Feature, Geometry, Part};
 
-/// Most vertices that are compared to find the buildings around parts.
-const MAX_COMPARISONS: u64 = 2_000_000_000;
-
 /// An outline or a part.
-pub(super) struct Block {
+pub(super) struct Block<'a> {
     /// Its name, such as `way/1`.
     pub(super) name: String,
     /// Its tags.
-    pub(super) tags: Tags,
+    pub(super) tags: &'a Tags,
     /// Its areas.
     pub(super) areas: Vec<Footprint>,
+}
+
+impl Block<'_> {
+    fn vertices(&self) -> usize {
+        self.areas.iter().map(Footprint::vertices).sum()
+    }
 }
 
 /// What became of a building.
@@ -35,133 +31,75 @@ pub(super) struct Built {
     pub(super) skipped: Vec<(String, &'static str)>,
 }
 
-/// For each part the number of the building that it belongs to: by a relation, or else the smallest
-/// one around it.
-pub(super) fn owners(
-    buildings: &[Block],
-    parts: &[Block],
-    related: &HashMap<String, String>,
-) -> Result<Vec<Option<usize>>, Problem> {
-    let numbers: HashMap<&str, usize> = buildings
-        .iter()
-        .enumerate()
-        .map(|(i, building)| (building.name.as_str(), i))
-        .collect();
-    let by_relation = |part: &Block| numbers.get(related.get(&part.name)?.as_str()).copied();
-    let areas: Vec<(usize, f64, Polygon)> = buildings
-        .iter()
-        .enumerate()
-        .flat_map(|(i, building)| {
-            building
-                .areas
-                .iter()
-                .map(move |a| (i, a.area(), a.polygon()))
-        })
-        .collect();
-    let boxes = areas.iter().enumerate().filter_map(|(i, (_, _, area))| {
-        let bounds = geo::BoundingRect::bounding_rect(area)?;
-        let corners = (bounds.min(), bounds.max());
-        let bounds =
-            Rectangle::from_corners([corners.0.x, corners.0.y], [corners.1.x, corners.1.y]);
-        Some(GeomWithData::new(bounds, i))
-    });
-    let tree = RTree::bulk_load(boxes.collect());
-    let mut compared = 0;
-    let mut around = |point: Point| -> Result<Option<usize>, Problem> {
-        let mut smallest: Option<(usize, f64)> = None;
-        for found in tree.locate_all_at_point([point.x(), point.y()]) {
-            let (building, size, area) = &areas[found.data];
-            compared += area.exterior().0.len() as u64;
-            if compared > MAX_COMPARISONS {
-                let what = "vertices around parts of buildings";
-                return Err(Problem::Limit {
-                    what,
-                    found: compared,
-                    limit: MAX_COMPARISONS,
-                });
-            }
-            if area.contains(&point) && smallest.is_none_or(|(_, least)| *size < least) {
-                smallest = Some((*building, *size));
-            }
-        }
-        Ok(smallest.map(|(building, _)| building))
-    };
-    let owner = |part: &Block| match by_relation(part) {
-        Some(building) => Ok(Some(building)),
-        None => match part
-            .areas
-            .first()
-            .and_then(|area| area.polygon().interior_point())
-        {
-            Some(point) => around(point),
-            None => Ok(None),
-        },
-    };
-    parts.iter().map(owner).collect()
-}
-
 /// A building of its parts; or of its outline, where none of them can be built.
-pub(super) fn build(outline: &Block, parts: &[&Block]) -> Built {
-    let mut notes = Vec::new();
+pub(super) fn build(outline: &Block<'_>, parts: &[&Block<'_>]) -> Built {
     let mut skipped = Vec::new();
-    let mut built = Vec::new();
-    for part in parts {
-        match Solids::of(part, Some(&outline.tags)) {
-            Ok(solids) => built.push((*part, solids)),
-            Err(why) => skipped.push((part.name.clone(), why)),
+    let pieces = match pieces(outline, parts, &mut skipped) {
+        Ok(pieces) => pieces,
+        Err(why) => {
+            return Built {
+                feature: Err(why),
+                notes: Vec::new(),
+                skipped,
+            };
         }
-    }
-    let level_of_detail = |flat: bool| if flat { 1.0 } else { 2.0 };
-    let geometry = |solids: Solids, part: Option<&Block>, flat: bool| Geometry {
-        level_of_detail: level_of_detail(flat),
+    };
+    let notes = pieces
+        .iter()
+        .flat_map(|(_, solids)| solids.notes.iter().cloned());
+    let mut notes: Vec<String> = notes.collect();
+    notes.sort();
+    notes.dedup();
+    // One level for the whole building, or a delivery by level would lose parts of it.
+    let is_flat = pieces.iter().all(|(_, solids)| solids.is_flat());
+    let level_of_detail = if is_flat { 1.0 } else { 2.0 };
+    let parts = pieces
+        .iter()
+        .filter_map(|(part, _)| part.map(part_of))
+        .collect();
+    let geometry = |(part, solids): (Option<&Block<'_>>, Solids)| Geometry {
+        level_of_detail,
         part: part.map(|part| part.name.clone()),
         shape: solids.appearance.shape(solids.solids),
         placement: None,
     };
-    let geometries = if built.is_empty() {
-        Solids::of(outline, None).map(|solids| {
-            notes.extend(solids.notes.iter().cloned());
-            let flat = solids.is_flat();
-            vec![geometry(solids, None, flat)]
-        })
-    } else {
-        notes.extend(
-            built
-                .iter()
-                .flat_map(|(_, solids)| solids.notes.iter().cloned()),
-        );
-        // One level for the whole building, or a delivery by level would lose parts of it.
-        let flat = built.iter().all(|(_, solids)| solids.is_flat());
-        Ok(built
-            .into_iter()
-            .map(|(part, solids)| geometry(solids, Some(part), flat))
-            .collect())
-    };
-    let has = |geometries: &[Geometry], part: &Block| {
-        geometries
-            .iter()
-            .any(|geometry| geometry.part.as_ref() == Some(&part.name))
-    };
-    notes.sort();
-    notes.dedup();
     Built {
-        feature: geometries.map(|geometries| Feature {
+        feature: Ok(Feature {
             name: outline.name.clone(),
             class: "Building".to_owned(),
             attributes: outline.tags.attributes(),
-            parts: parts
-                .iter()
-                .filter(|part| has(&geometries, part))
-                .map(|part| part_of(part))
-                .collect(),
-            geometries,
+            parts,
+            geometries: pieces.into_iter().map(geometry).collect(),
         }),
         notes,
         skipped,
     }
 }
 
-fn part_of(part: &Block) -> Part {
+/// The parts that can be built with their solids, or else the outline.
+fn pieces<'a, 'b>(
+    outline: &Block<'_>,
+    parts: &[&'a Block<'b>],
+    skipped: &mut Vec<(String, &'static str)>,
+) -> Result<Vec<(Option<&'a Block<'b>>, Solids)>, &'static str> {
+    let vertices = parts.iter().map(|part| part.vertices()).sum::<usize>();
+    if vertices.max(outline.vertices()) > MAX_FEATURE_VERTICES {
+        return Err("more than 1000000 vertices");
+    }
+    let mut pieces = Vec::new();
+    for part in parts {
+        match Solids::of(part, Some(outline.tags)) {
+            Ok(solids) => pieces.push((Some(*part), solids)),
+            Err(why) => skipped.push((part.name.clone(), why)),
+        }
+    }
+    if pieces.is_empty() {
+        pieces.push((None, Solids::of(outline, None)?));
+    }
+    Ok(pieces)
+}
+
+fn part_of(part: &Block<'_>) -> Part {
     Part {
         name: part.name.clone(),
         class: "BuildingPart".to_owned(),
@@ -177,11 +115,11 @@ struct Solids {
 }
 
 impl Solids {
-    fn of(block: &Block, around: Option<&Tags>) -> Result<Self, &'static str> {
+    fn of(block: &Block<'_>, around: Option<&Tags>) -> Result<Self, &'static str> {
         if block.tags.is("location", &["underground"]) {
             return Err("under the ground");
         }
-        let vertical = Vertical::of(&block.tags, around);
+        let vertical = Vertical::of(block.tags, around);
         let mut notes = vertical.notes;
         let mut solids = Vec::new();
         for area in &block.areas {

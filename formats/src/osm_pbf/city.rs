@@ -7,6 +7,8 @@ use super::block::{Member, MemberKind};
 use super::building::{self, Block};
 use super::gather::{Elements, Relation, Way};
 use super::kind::Kind;
+use super::nodes::Nodes;
+use super::owners::owners;
 use super::plan::Plans;
 use super::tags::Tags;
 use super::{street, structure};
@@ -20,8 +22,8 @@ pub(super) struct City<'a> {
     plans: Plans<'a>,
     /// What is given as it comes.
     others: Vec<Element<'a>>,
-    buildings: Vec<Block>,
-    parts: Vec<Block>,
+    buildings: Vec<Block<'a>>,
+    parts: Vec<Block<'a>>,
     /// For each part the building that it belongs to.
     owners: Vec<Option<usize>>,
     skipped: Vec<Skipped>,
@@ -101,9 +103,9 @@ impl<'a> Element<'a> {
 
 impl<'a> City<'a> {
     /// Sorts elements whose nodes are at these places.
-    pub(super) fn new(elements: &'a Elements, nodes: HashMap<i64, Plan>) -> Result<Self, Problem> {
+    pub(super) fn new(elements: &'a Elements, nodes: Nodes) -> Result<Self, Problem> {
         let mut city = City {
-            plans: Plans::new(nodes, &elements.ways),
+            plans: Plans::new(nodes, elements)?,
             others: Vec::new(),
             buildings: Vec::new(),
             parts: Vec::new(),
@@ -122,7 +124,7 @@ impl<'a> City<'a> {
             }
         }
         let related = related_parts(&elements.relations);
-        city.owners = building::owners(&city.buildings, &city.parts, &related)?;
+        city.owners = owners(&city.buildings, &city.parts, &related)?;
         Ok(city)
     }
 
@@ -135,7 +137,7 @@ impl<'a> City<'a> {
         match element.areas(&self.plans) {
             Ok(areas) => blocks.push(Block {
                 name: element.name(),
-                tags: element.tags.clone(),
+                tags: element.tags,
                 areas,
             }),
             Err(why) => self.skipped.push(element.skipped(why)),
@@ -220,8 +222,8 @@ impl<'a> City<'a> {
 }
 
 fn give_building(
-    outline: &Block,
-    parts: &[&Block],
+    outline: &Block<'_>,
+    parts: &[&Block<'_>],
     note: Option<&str>,
     batch: &mut Batch<'_, '_>,
 ) -> ControlFlow<()> {

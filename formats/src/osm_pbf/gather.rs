@@ -1,18 +1,22 @@
 //! What a file holds of the scene, in three passes: relations, then the ways that they or their own
 //! tags ask for, then the nodes of those ways. So only what is needed is kept, whatever the order.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 use super::blob::Blobs;
 use super::block::{Block, Member, MemberKind};
 use super::kind::{Kind, is_telling};
+use super::nodes::Nodes;
 use super::tags::Tags;
 use super::wire::Broken;
 use crate::error::Problem;
 use crate::input::Input;
 use crate::limits::Limits;
 
-/// Most nodes of ways and members of relations that are kept; 40 bytes each.
+/// Most ways and relations that are kept; up to 80 bytes each.
+const MAX_ELEMENTS: u64 = 3_000_000;
+
+/// Most nodes of ways and members of relations that are kept; up to 40 bytes each.
 const MAX_REFERENCES: u64 = 10_000_000;
 
 /// Most memory of the tags that are kept, bytes.
@@ -48,9 +52,9 @@ pub(super) struct Elements {
     /// The ways, in the order of the file.
     pub(super) ways: Vec<Way>,
     /// Longitude and latitude of each node that is there.
-    pub(super) nodes: HashMap<i64, [f64; 2]>,
+    pub(super) nodes: Nodes,
     references: u64,
-    objects: u64,
+    elements: u64,
     tag_bytes: u64,
 }
 
@@ -58,9 +62,7 @@ impl Elements {
     /// Reads all that the scene needs.
     pub(super) fn gather(input: &mut dyn Input, limits: &Limits) -> Result<Self, Problem> {
         let mut elements = Self::default();
-        each_block(input, limits, &mut |block| {
-            elements.add_relations(block, limits)
-        })?;
+        each_block(input, limits, &mut |block| elements.add_relations(block))?;
         let members = elements
             .relations
             .iter()
@@ -68,27 +70,20 @@ impl Elements {
         let ways = members.filter(|member| member.kind == MemberKind::Way);
         let wanted: HashSet<i64> = ways.map(|member| member.id).collect();
         each_block(input, limits, &mut |block| {
-            elements.add_ways(block, &wanted, limits)
+            elements.add_ways(block, &wanted)
         })?;
         drop(wanted);
-        let mut nodes: HashMap<i64, [f64; 2]> = HashMap::new();
-        for node in elements.ways.iter().flat_map(|way| &way.nodes) {
-            nodes.insert(*node, [f64::NAN; 2]);
-        }
+        let ids = elements.ways.iter().flat_map(|way| &way.nodes).copied();
+        let mut nodes = Nodes::wanted(ids.collect());
         each_block(input, limits, &mut |block| {
-            let mut visit = |id, position| {
-                if let Some(place) = nodes.get_mut(&id) {
-                    *place = position;
-                }
-            };
-            block.each_node(&mut visit).map_err(Stop::Broken)
+            let put = &mut |id, place| nodes.put(id, place);
+            block.each_node(put).map_err(Stop::Broken)
         })?;
-        nodes.retain(|_, position| !position[0].is_nan());
         elements.nodes = nodes;
         Ok(elements)
     }
 
-    fn add_relations(&mut self, block: &Block<'_>, limits: &Limits) -> Result<(), Stop> {
+    fn add_relations(&mut self, block: &Block<'_>) -> Result<(), Stop> {
         for record in block.relations() {
             let record = record?;
             let Some(tags) = block.tags(&record, |key| key == b"type")? else {
@@ -99,7 +94,7 @@ impl Elements {
                 continue;
             }
             let members = block.members(&record)?;
-            self.spend(members.len(), tags.bytes(), limits)?;
+            self.spend(members.len(), tags.bytes())?;
             self.relations.push(Relation {
                 id: record.id,
                 tags,
@@ -109,12 +104,7 @@ impl Elements {
         Ok(())
     }
 
-    fn add_ways(
-        &mut self,
-        block: &Block<'_>,
-        wanted: &HashSet<i64>,
-        limits: &Limits,
-    ) -> Result<(), Stop> {
+    fn add_ways(&mut self, block: &Block<'_>, wanted: &HashSet<i64>) -> Result<(), Stop> {
         for record in block.ways() {
             let record = record?;
             let tags = block.tags(&record, is_telling)?;
@@ -123,7 +113,7 @@ impl Elements {
                 continue;
             }
             let nodes = record.nodes().collect::<Result<Vec<_>, _>>()?;
-            self.spend(nodes.len(), tags.as_ref().map_or(0, Tags::bytes), limits)?;
+            self.spend(nodes.len(), tags.as_ref().map_or(0, Tags::bytes))?;
             self.ways.push(Way {
                 id: record.id,
                 nodes,
@@ -133,11 +123,11 @@ impl Elements {
         Ok(())
     }
 
-    fn spend(&mut self, references: usize, tag_bytes: usize, limits: &Limits) -> Result<(), Stop> {
-        self.objects += 1;
+    fn spend(&mut self, references: usize, tag_bytes: usize) -> Result<(), Stop> {
+        self.elements += 1;
         self.references += references as u64;
         self.tag_bytes += tag_bytes as u64;
-        within("objects", self.objects, limits.objects)?;
+        within("ways and relations", self.elements, MAX_ELEMENTS)?;
         within(
             "nodes of ways and members of relations",
             self.references,

@@ -7,6 +7,8 @@ mod building;
 mod city;
 mod gather;
 mod kind;
+mod nodes;
+mod owners;
 mod plan;
 mod rings;
 mod street;
@@ -45,34 +47,23 @@ fn read_problem(
     sink: &mut Sink<'_>,
 ) -> Result<(), Problem> {
     let mut elements = Elements::gather(input, &Limits::STANDARD)?;
-    let nodes = std::mem::take(&mut elements.nodes);
-    let projection = match centre(nodes.values()) {
+    let mut nodes = std::mem::take(&mut elements.nodes);
+    let projection = match nodes.centre() {
         Some(centre) => Some(Projection::to_srid_or_zone(options.srid, centre)?),
         None => options.srid.map(Projection::to_srid).transpose()?,
     };
+    if let Some(projection) = &projection {
+        nodes.project(projection);
+    }
     let scene = SceneDescription {
         srid: projection.as_ref().map(Projection::srid),
         attribution: Some(ATTRIBUTION.to_owned()),
         ..SceneDescription::default()
     };
-    let project = |(id, position)| Some((id, projection.as_ref()?.project(position)?));
-    let nodes = nodes.into_iter().filter_map(project).collect();
     let mut batch = Batch::new(scene, options, sink);
     // The end of the reading asked for by the sink is no error.
     if City::new(&elements, nodes)?.give(&mut batch).is_continue() {
         let _ = batch.finish();
     }
     Ok(())
-}
-
-/// The middle of the box around positions.
-fn centre<'a>(positions: impl Iterator<Item = &'a [f64; 2]>) -> Option<[f64; 2]> {
-    let bounds = positions.fold(None, |bounds: Option<[[f64; 2]; 2]>, p| {
-        let [low, high] = bounds.unwrap_or([*p; 2]);
-        Some([
-            [low[0].min(p[0]), low[1].min(p[1])],
-            [high[0].max(p[0]), high[1].max(p[1])],
-        ])
-    });
-    bounds.map(|[low, high]| [(low[0] + high[0]) / 2.0, (low[1] + high[1]) / 2.0])
 }

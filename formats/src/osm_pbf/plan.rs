@@ -3,30 +3,46 @@
 use std::collections::HashMap;
 
 use super::block::{Member, MemberKind};
-use super::gather::Way;
+use super::gather::{Elements, Way};
+use super::nodes::Nodes;
 use super::rings::rings;
+use crate::error::Problem;
 use crate::extrusion::{Footprint, Plan, is_inside, line_string};
 
 /// Most outer rings of one relation: each hole is compared with each.
 const MAX_OUTER_RINGS: usize = 1000;
+
+/// Most nodes of members of relations together: many relations can name one long way.
+const MAX_MEMBER_NODES: u64 = 10_000_000;
 
 /// Why an element at the edge of an extract has no form.
 const MISSING_NODE: &str = "a node is missing";
 
 /// Where nodes and ways are.
 pub(super) struct Plans<'a> {
-    nodes: HashMap<i64, Plan>,
+    nodes: Nodes,
     ways: HashMap<i64, &'a [i64]>,
 }
 
 impl<'a> Plans<'a> {
-    /// Of nodes in metres and ways by number.
-    pub(super) fn new(nodes: HashMap<i64, Plan>, ways: &'a [Way]) -> Self {
-        let ways = ways
+    /// Of nodes in metres and the ways of a file.
+    pub(super) fn new(nodes: Nodes, elements: &'a Elements) -> Result<Self, Problem> {
+        let way = |way: &'a Way| (way.id, way.nodes.as_slice());
+        let ways: HashMap<_, _> = elements.ways.iter().map(way).collect();
+        let members = elements
+            .relations
             .iter()
-            .map(|way| (way.id, way.nodes.as_slice()))
-            .collect();
-        Self { nodes, ways }
+            .flat_map(|relation| &relation.members);
+        let lengths = members.filter_map(|member| Some(ways.get(&member.id)?.len() as u64));
+        let found = lengths.sum();
+        match found > MAX_MEMBER_NODES {
+            true => Err(Problem::Limit {
+                what: "nodes of members of relations",
+                found,
+                limit: MAX_MEMBER_NODES,
+            }),
+            false => Ok(Self { nodes, ways }),
+        }
     }
 
     /// The area of a closed way.
@@ -68,10 +84,7 @@ impl<'a> Plans<'a> {
 
     /// A way in pieces: nodes outside of an extract are missing.
     pub(super) fn lines(&self, nodes: &[i64]) -> Result<Vec<Vec<Plan>>, &'static str> {
-        let places: Vec<_> = nodes
-            .iter()
-            .map(|node| self.nodes.get(node).copied())
-            .collect();
+        let places: Vec<_> = nodes.iter().map(|node| self.nodes.get(*node)).collect();
         let pieces = places.split(Option::is_none);
         let pieces = pieces.map(|piece| piece.iter().flatten().copied().collect::<Vec<_>>());
         let pieces: Vec<_> = pieces.filter(|piece| piece.len() >= 2).collect();
@@ -82,7 +95,7 @@ impl<'a> Plans<'a> {
     }
 
     fn ring(&self, nodes: &[i64]) -> Result<Vec<Plan>, &'static str> {
-        let place = |node| self.nodes.get(node).copied().ok_or(MISSING_NODE);
+        let place = |node: &i64| self.nodes.get(*node).ok_or(MISSING_NODE);
         nodes.iter().map(place).collect()
     }
 

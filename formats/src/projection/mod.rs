@@ -1,6 +1,9 @@
 //! Longitude and latitude in metres: [`Projection`].
 
+mod bounds;
 mod utm;
+
+pub(crate) use bounds::Bounds;
 
 use proj4rs::errors::Error;
 use proj4rs::proj::Proj;

@@ -338,7 +338,7 @@ fn any_feature() -> impl Strategy<Value = Feature> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..Default::default() })]
 
     #[test]
     fn any_feature_makes_the_round_trip(feature in any_feature()) {

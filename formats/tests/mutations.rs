@@ -3,6 +3,7 @@
 mod common;
 
 use common::{building, document, object, read_all, sequence_of_buildings};
+use formats::{Feature, Model, pack, unpack, write_city_json_seq};
 use proptest::prelude::*;
 
 /// Numbers and pieces that a mutation puts in.
@@ -87,6 +88,23 @@ fn number_ranges(bytes: &[u8]) -> Vec<std::ops::Range<usize>> {
     ranges
 }
 
+/// What holds of every feature: finite positions, and numbers that select something.
+fn assert_sound(feature: &Feature) {
+    let is_part = |name: &String| feature.parts.iter().any(|part| part.name == *name);
+    for geometry in &feature.geometries {
+        assert!(geometry.part.as_ref().is_none_or(is_part));
+        let shape = &geometry.shape;
+        let selects =
+            |number: Option<u32>, count: usize| number.is_none_or(|n| (n as usize) < count);
+        for surface in geometry.surfaces().iter() {
+            assert!(selects(surface.material, shape.materials.len()));
+            assert!(selects(surface.semantic, shape.semantics.len()));
+            let mut coordinates = surface.rings.iter().flatten().flatten();
+            assert!(coordinates.all(|coordinate| coordinate.abs() <= 1e9));
+        }
+    }
+}
+
 fn seeds() -> Vec<Vec<u8>> {
     let road = object("r", "Road", "MultiSurface", "[[[0,1,2,3],[4,5,6]]]");
     let part = object("p", "BuildingPart", "MultiSurface", "[[[0,1,2]]]").replacen(
@@ -98,7 +116,29 @@ fn seeds() -> Vec<Vec<u8>> {
         document(&[building("a"), part, road].join(",")).into_bytes(),
         sequence_of_buildings(2),
         include_bytes!("data/trees.city.jsonl").to_vec(),
+        include_bytes!("data/painted.city.json").to_vec(),
     ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..Default::default() })]
+
+    #[test]
+    fn what_is_read_of_a_mutation_can_be_packed_and_written(
+        seed in 0usize..4,
+        mutation in mutation(),
+    ) {
+        let mut bytes = seeds().swap_remove(seed);
+        mutate(&mut bytes, &mutation);
+        for feature in read_all("mutated", &bytes).map_or(Vec::new(), |scene| scene.features) {
+            let packed = pack(&feature.geometries, &feature.parts).unwrap();
+            let (parts, geometries) = unpack(&packed).unwrap();
+            prop_assert_eq!((&parts, &geometries), (&feature.parts, &feature.geometries));
+            let written = write_city_json_seq(&[Model { id: 1, feature }], None);
+            let again = read_all("written", written.as_bytes());
+            prop_assert!(again.is_ok(), "{:?} of {}", again, written);
+        }
+    }
 }
 
 proptest! {
@@ -106,7 +146,7 @@ proptest! {
 
     #[test]
     fn no_mutation_makes_the_reader_panic(
-        seed in 0usize..3,
+        seed in 0usize..4,
         mutations in prop::collection::vec(mutation(), 1..6),
     ) {
         let mut bytes = seeds().swap_remove(seed);
@@ -114,9 +154,7 @@ proptest! {
         match read_all("mutated", &bytes) {
             Err(error) => prop_assert!(error.to_string().starts_with("mutated")),
             Ok(scene) => for feature in &scene.features {
-                let positions = feature.geometries.iter().flat_map(|g| &g.shape.surfaces);
-                let positions = positions.flat_map(|s| &s.rings).flatten().flatten();
-                prop_assert!(positions.into_iter().all(|coordinate| coordinate.is_finite()));
+                assert_sound(feature);
             },
         }
     }

@@ -43,7 +43,7 @@ impl Memory {
     }
 
     /// Values as JSON, none as nothing. Spends what they take once the text is read.
-    pub(super) fn to_text<T: Serialize>(&mut self, values: &[T]) -> Result<String, Problem> {
+    pub(super) fn encode<T: Serialize>(&mut self, values: &[T]) -> Result<String, Problem> {
         if values.is_empty() {
             return Ok(String::new());
         }
@@ -53,7 +53,7 @@ impl Memory {
     }
 
     /// Values from JSON.
-    pub(super) fn from_text<T: DeserializeOwned>(&mut self, text: &str) -> Result<Vec<T>, Problem> {
+    pub(super) fn decode<T: DeserializeOwned>(&mut self, text: &str) -> Result<Vec<T>, Problem> {
         if text.is_empty() {
             return Ok(Vec::new());
         }

@@ -51,7 +51,7 @@ impl StoredModel {
             });
         }
         Ok(Self {
-            parts: memory.to_text(parts)?,
+            parts: memory.encode(parts)?,
             shapes,
             geometries: stored,
         })
@@ -73,7 +73,7 @@ impl StoredModel {
             .into_iter()
             .map(geometry)
             .collect::<Result<_, _>>()?;
-        Ok((memory.from_text(&self.parts)?, geometries))
+        Ok((memory.decode(&self.parts)?, geometries))
     }
 }
 

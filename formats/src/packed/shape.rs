@@ -57,7 +57,7 @@ impl StoredShape {
             surface_materials: numbers("material", materials, shape.materials.len())?,
             surface_semantics: numbers("semantic", semantics, shape.semantics.len())?,
             materials: shape.materials.clone(),
-            semantics: memory.to_text(&shape.semantics)?,
+            semantics: memory.encode(&shape.semantics)?,
         })
     }
 
@@ -66,7 +66,7 @@ impl StoredShape {
         memory.surfaces(self.surfaces.len())?;
         memory.rings(self.rings.len())?;
         memory.positions(self.vertices.len())?;
-        let semantics: Vec<Semantic> = memory.from_text(&self.semantics)?;
+        let semantics: Vec<Semantic> = memory.decode(&self.semantics)?;
         let positions = self.positions.positions()?;
         let mut rings = rings(&self.rings, &self.vertices, &positions)?.into_iter();
         let mut surfaces = Vec::with_capacity(self.surfaces.len());

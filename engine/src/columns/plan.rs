@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 
 use glam::{DVec2, DVec3};
 use spade::handles::FixedVertexHandle;
-use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+use spade::{ConstrainedDelaunayTriangulation, Point2, PositionInTriangulation, Triangulation};
 
 use super::facets::{Facet, Facets};
 use super::outline::Corner;
@@ -16,6 +16,10 @@ const MOST_CORNERS: usize = 200_000;
 
 /// A corner of the mesh this close to a level is on it, metres.
 pub const ON_LEVEL: f64 = 1e-6;
+
+/// A crossing this close to a corner is that corner, metres, or this share of the greatest
+/// coordinate: rounding alone must not make corners, since lines between them cross again.
+const SAME_CORNER: [f64; 2] = [1e-7, 1e-13];
 
 type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
 type Handle = FixedVertexHandle;
@@ -35,6 +39,12 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// The numbers of an edge's ends.
+    pub fn edge(&self, triangle: usize, edge: usize) -> [usize; 2] {
+        let corners = self.triangles[triangle];
+        [corners[edge % 3], corners[(edge + 1) % 3]]
+    }
+
     pub fn corner(&self, number: usize) -> Corner {
         Corner {
             number,
@@ -63,15 +73,26 @@ struct Draft {
     lines: HashMap<[Handle; 2], Vec<(f64, Handle)>>,
     /// Contours.
     contours: Vec<[Handle; 2]>,
+    /// Crossings so far.
+    crossings: usize,
+    /// Distance within which a crossing is at a corner.
+    same_corner: f64,
 }
 
 impl Draft {
     fn new(mesh: &TriangleMesh) -> Result<Self, MeshDefect> {
+        let coordinates = mesh
+            .vertices
+            .iter()
+            .map(|v| v.truncate().abs().max_element());
+        let greatest = coordinates.fold(0.0, f64::max);
         let mut draft = Self {
             cdt: Cdt::new(),
             corners: Vec::new(),
             lines: HashMap::new(),
             contours: Vec::new(),
+            crossings: 0,
+            same_corner: SAME_CORNER[0].max(SAME_CORNER[1] * greatest),
         };
         for vertex in &mesh.vertices {
             let corner = draft.add_corner(vertex.truncate())?;
@@ -186,14 +207,13 @@ impl Draft {
     /// Adds a line, and a corner wherever it crosses another.
     fn add_line(&mut self, line: [Handle; 2]) -> Result<(), MeshDefect> {
         let mut left = vec![line];
-        let mut steps = 0;
         while let Some([from, to]) = left.pop() {
             if from == to || !self.cdt.try_add_constraint(from, to).is_empty() {
                 continue;
             }
             // Rounding may move lines across each other again and again.
-            steps += 1;
-            if steps > MOST_CORNERS {
+            self.crossings += 1;
+            if self.crossings > MOST_CORNERS {
                 return Err(MeshDefect::TooIntricate {
                     limit: MOST_CORNERS,
                 });
@@ -206,8 +226,7 @@ impl Draft {
                 continue;
             };
             let (edge, [a, b]) = (crossed.fix(), crossed.vertices().map(|v| v.fix()));
-            let place = crossing([from, to, a, b].map(|corner| self.place(corner)));
-            let corner = self.add_corner(place)?;
+            let corner = self.add_crossing([from, to, a, b])?;
             if corner != a && corner != b {
                 self.cdt.remove_constraint_edge(edge);
                 left.extend([[a, corner], [corner, b]]);
@@ -219,6 +238,26 @@ impl Draft {
             }
         }
         Ok(())
+    }
+
+    /// The corner where two lines cross: a new one, or one that is there.
+    fn add_crossing(&mut self, ends: [Handle; 4]) -> Result<Handle, MeshDefect> {
+        let place = crossing(ends.map(|corner| self.place(corner)));
+        let around = match self.cdt.locate(Point2::new(place.x, place.y)) {
+            PositionInTriangulation::OnFace(face) => {
+                self.cdt.face(face).vertices().map(|v| v.fix()).to_vec()
+            }
+            PositionInTriangulation::OnEdge(edge) => self
+                .cdt
+                .directed_edge(edge)
+                .vertices()
+                .map(|v| v.fix())
+                .to_vec(),
+            _ => Vec::new(),
+        };
+        let mut near = ends.into_iter().chain(around);
+        let same = near.find(|&corner| self.place(corner).distance(place) <= self.same_corner);
+        same.map_or_else(|| self.add_corner(place), Ok)
     }
 
     fn place(&self, corner: Handle) -> DVec2 {

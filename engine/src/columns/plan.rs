@@ -5,14 +5,15 @@ use std::collections::{HashMap, HashSet};
 
 use glam::{DVec2, DVec3};
 use spade::handles::FixedVertexHandle;
-use spade::{ConstrainedDelaunayTriangulation, Point2, PositionInTriangulation, Triangulation};
+use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 use super::facets::{Facet, Facets};
 use super::outline::Corner;
 use crate::{MeshDefect, TriangleMesh};
 
-/// Most corners of a plan: some hundred megabytes of work, ten times the largest real model seen.
-const MOST_CORNERS: usize = 200_000;
+/// Most corners, and most crossings, of a plan: ten times those of the most intricate building of a
+/// real city, and about a second of work.
+const MOST_CORNERS: usize = 50_000;
 
 /// A corner of the mesh this close to a level is on it, metres.
 pub const ON_LEVEL: f64 = 1e-6;
@@ -71,6 +72,8 @@ struct Draft {
     corners: Vec<Handle>,
     /// Corners on each line between two others, and how far along each is.
     lines: HashMap<[Handle; 2], Vec<(f64, Handle)>>,
+    /// Corners by the square of a grid in which they are.
+    squares: HashMap<[i64; 2], Vec<Handle>>,
     /// Contours.
     contours: Vec<[Handle; 2]>,
     /// Crossings so far.
@@ -90,6 +93,7 @@ impl Draft {
             cdt: Cdt::new(),
             corners: Vec::new(),
             lines: HashMap::new(),
+            squares: HashMap::new(),
             contours: Vec::new(),
             crossings: 0,
             same_corner: SAME_CORNER[0].max(SAME_CORNER[1] * greatest),
@@ -115,8 +119,16 @@ impl Draft {
                 x
             }
         });
+        let count = self.cdt.num_vertices();
         let inserted = self.cdt.insert(Point2::new(flushed.x, flushed.y));
-        inserted.map_err(|_| MeshDefect::NotFinite)
+        let corner = inserted.map_err(|_| MeshDefect::NotFinite)?;
+        if self.cdt.num_vertices() > count {
+            self.squares
+                .entry(self.square(place))
+                .or_default()
+                .push(corner);
+        }
+        Ok(corner)
     }
 
     /// Notes the lines of all facets and their contours.
@@ -168,7 +180,7 @@ impl Draft {
             }
             let along = (level - from.z) / (to.z - from.z);
             let place = from.truncate().lerp(to.truncate(), along);
-            let crossing = self.add_corner(place)?;
+            let crossing = self.add_computed(place)?;
             crossings.insert(([a, b], number), crossing);
             ends.push(crossing);
             let line = [a, b].map(|number| self.corners[number as usize]);
@@ -226,7 +238,8 @@ impl Draft {
                 continue;
             };
             let (edge, [a, b]) = (crossed.fix(), crossed.vertices().map(|v| v.fix()));
-            let corner = self.add_crossing([from, to, a, b])?;
+            let ends = [from, to, a, b].map(|corner| self.place(corner));
+            let corner = self.add_computed(crossing(ends))?;
             if corner != a && corner != b {
                 self.cdt.remove_constraint_edge(edge);
                 left.extend([[a, corner], [corner, b]]);
@@ -240,24 +253,23 @@ impl Draft {
         Ok(())
     }
 
-    /// The corner where two lines cross: a new one, or one that is there.
-    fn add_crossing(&mut self, ends: [Handle; 4]) -> Result<Handle, MeshDefect> {
-        let place = crossing(ends.map(|corner| self.place(corner)));
-        let around = match self.cdt.locate(Point2::new(place.x, place.y)) {
-            PositionInTriangulation::OnFace(face) => {
-                self.cdt.face(face).vertices().map(|v| v.fix()).to_vec()
-            }
-            PositionInTriangulation::OnEdge(edge) => self
-                .cdt
-                .directed_edge(edge)
-                .vertices()
-                .map(|v| v.fix())
-                .to_vec(),
-            _ => Vec::new(),
-        };
-        let mut near = ends.into_iter().chain(around);
-        let same = near.find(|&corner| self.place(corner).distance(place) <= self.same_corner);
-        same.map_or_else(|| self.add_corner(place), Ok)
+    /// The corner at a computed place: a new one, or one that is there.
+    fn add_computed(&mut self, place: DVec2) -> Result<Handle, MeshDefect> {
+        let square = self.square(place);
+        let around = (-1..=1).flat_map(|x| (-1..=1).map(move |y| [x, y]));
+        let mut near = around
+            .filter_map(|[x, y]| self.squares.get(&[square[0] + x, square[1] + y]))
+            .flatten();
+        let same = near.find(|&&corner| self.place(corner).distance(place) <= self.same_corner);
+        same.copied().map_or_else(|| self.add_corner(place), Ok)
+    }
+
+    /// The square of a place in a grid as wide as corners are apart. Far away they are as wide as
+    /// numbers can tell.
+    fn square(&self, place: DVec2) -> [i64; 2] {
+        // At least half the range of whole numbers is left for neighbours.
+        let number = |x: f64| (x / self.same_corner).clamp(-4e18, 4e18) as i64;
+        [number(place.x), number(place.y)]
     }
 
     fn place(&self, corner: Handle) -> DVec2 {

@@ -95,11 +95,11 @@ BEGIN
         EXECUTE format('UPDATE %I.scene_info SET srid = $1', scene) USING srids[1];
     END IF;
     RETURN occlusion.import_rows(scene, source::text, format(
-        'SELECT %s, %s, to_jsonb(t) - %L::text[], occlusion.footprint_rings(t.%I), %s, %s, '
+        'SELECT %s, %s, %s, occlusion.footprint_rings(t.%I), %s, %s, '
         'occlusion.faces(t.%4$I) FROM %7$s AS t',
         CASE WHEN occlusion.column_type(source, name) IS NULL THEN 'NULL::text' ELSE format('t.%I::text', name) END,
         CASE WHEN occlusion.column_type(source, class) IS NULL THEN 'NULL::text' ELSE format('t.%I::text', class) END,
-        ARRAY[geometry, bottom, top, height, name, class],
+        occlusion.other_columns(source, ARRAY[geometry, bottom, top, height, name, class]),
         geometry, low, high, source));
 END
 $$;

@@ -23,6 +23,21 @@ SET search_path = pg_catalog, pg_temp AS $$
 $$;
 COMMENT ON FUNCTION occlusion.column_type(regclass, text) IS 'type of a column, null if there is none';
 
+-- SQL for the columns of a row "t" but some, as jsonb. Those of PostGIS's types are left out: not
+-- all of their values have a form in JSON.
+CREATE FUNCTION occlusion.other_columns(source regclass, used text[]) RETURNS text
+LANGUAGE sql STABLE STRICT PARALLEL SAFE
+SET search_path = pg_catalog, pg_temp AS $$
+    SELECT format('(SELECT to_jsonb(r) FROM (SELECT %s) AS r)',
+                  string_agg(format('t.%I', a.attname), ', ' ORDER BY a.attnum))
+    FROM pg_attribute AS a
+    JOIN pg_type AS y ON y.oid = a.atttypid
+    WHERE a.attrelid = source AND a.attnum > 0 AND NOT a.attisdropped AND a.attname <> ALL (used)
+      AND y.typname NOT IN ('geometry', 'geography', 'raster')
+$$;
+COMMENT ON FUNCTION occlusion.other_columns(regclass, text[]) IS
+    'SQL for the columns of a relation that are not used otherwise, as jsonb';
+
 CREATE FUNCTION occlusion.import_features(scene text, source regclass,
                                           footprint text DEFAULT 'footprint',
                                           bottom text DEFAULT 'bottom', top text DEFAULT 'top',
@@ -62,10 +77,10 @@ BEGIN
                   DETAIL = 'A footprint needs its highest point, or its height above its lowest.';
     END IF;
     RETURN occlusion.import_rows(scene, source::text, format(
-        'SELECT %s, %s, to_jsonb(t) - %L::text[], %s, %s, %s, NULL::bytea FROM %s AS t',
+        'SELECT %s, %s, %s, %s, %s, %s, NULL::bytea FROM %s AS t',
         CASE WHEN occlusion.column_type(source, name) IS NULL THEN 'NULL::text' ELSE format('t.%I::text', name) END,
         CASE WHEN occlusion.column_type(source, class) IS NULL THEN 'NULL::text' ELSE format('t.%I::text', class) END,
-        ARRAY[footprint, bottom, top, height, name, class],
+        occlusion.other_columns(source, ARRAY[footprint, bottom, top, height, name, class]),
         rings, low, high, source));
 END
 $$;

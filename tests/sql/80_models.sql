@@ -56,11 +56,11 @@ JOIN regress_models.feature AS f ON f.id = v.feature_id WHERE f.name = 'behind';
 
 -- All in one file.
 SELECT substr(g, 1, 4) = 'glTF'::bytea AND position('behind'::bytea IN g) > 0 AND position('"bare"'::bytea IN g) = 0 AS t
-FROM occlusion.visible_glb('regress_models', 'POINT(85005 446990 1.75)', 2000) AS g;
+FROM occlusion.visible_glb('regress_models', occlusion.point3d(85005, 446990, 1.75), 2000) AS g;
 SELECT position('behind'::bytea IN g) > 0 AS t FROM occlusion.visible_glb('regress_models', occlusion.view_cone('POINT(85005 446990 1.75)', 0, 60, 300)) AS g;
 SELECT position('behind'::bytea IN g) > 0 AS t FROM occlusion.visible_glb('regress_models', occlusion.view_sector('POINT(85005 446990 1.75)', 0, 60, 300)) AS g;
 -- Nothing seen is an empty file.
-SELECT substr(g, 1, 4) = 'glTF'::bytea AS t FROM occlusion.visible_glb('regress_models', 'POINT(0 0 0)', 1) AS g;
+SELECT substr(g, 1, 4) = 'glTF'::bytea AS t FROM occlusion.visible_glb('regress_models', occlusion.point3d(0, 0, 0), 1) AS g;
 SELECT convert_from(occlusion.merged_models('regress_models', array_agg(id ORDER BY id), 'vrml97'), 'UTF8') LIKE '#VRML V2.0 utf8%front%behind%' AS t FROM regress_models.feature;
 SELECT convert_from(m, 'UTF8')::jsonb ->> 'type' AS type, (SELECT count(*) FROM jsonb_object_keys(convert_from(m, 'UTF8')::jsonb -> 'CityObjects')) AS objects
 FROM (SELECT occlusion.merged_models('regress_models', array_agg(id ORDER BY id), 'cityjson') FROM regress_models.feature) AS f (m);

@@ -333,6 +333,18 @@ fn documents_that_are_wrong_are_refused() {
     );
 }
 
+/// How often a ring runs anticlockwise around a point in plan.
+fn winding(ring: &[[f64; 3]], [x, y]: [f64; 2]) -> i32 {
+    let edges = ring.iter().zip(ring.iter().cycle().skip(1));
+    let passes = edges.map(|(a, b)| {
+        let left = (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+        let up = a[1] <= y && b[1] > y && left > 0.0;
+        let down = a[1] > y && b[1] <= y && left < 0.0;
+        i32::from(up) - i32::from(down)
+    });
+    passes.sum()
+}
+
 fn seeds() -> Vec<String> {
     let hole = "[[85002,447002],[85004,447002],[85004,447004],[85002,447004],[85002,447002]]";
     let degrees = "[[[24.94,60.17],[24.9402,60.17],[24.9402,60.1701],[24.94,60.17]]]";
@@ -403,5 +415,14 @@ proptest! {
         let rings = format!("[{},{}]", text(&ring), text(&hole));
         let scene = read(&dutch(&[feature("Polygon", &rings, r#"{"height":3}"#)]));
         prop_assert_eq!(scene.features.len() + scene.skipped.len(), 1);
+        for surface in scene.features.iter().flat_map(|f| &f.geometries[0].shape.surfaces) {
+            if surface.semantic == Some(1) {
+                // Beside the grid of the vertices, a roof covers each point once or not at all.
+                for (x, y) in (0..144).map(|i| (f64::from(i / 12) + 0.51, f64::from(i % 12) + 0.53)) {
+                    let windings: i32 = surface.rings.iter().map(|ring| winding(ring, [x, y])).sum();
+                    prop_assert!((0..=1).contains(&windings), "{} at {} {}", rings, x, y);
+                }
+            }
+        }
     }
 }

@@ -4,73 +4,68 @@ use geo::algorithm::kernels::{Kernel, Orientation};
 use geo::{Coord, GeoNum};
 
 use super::Plan;
+use super::sweep::{Edge, each_pair};
 
-/// Most pairs of edges that are compared: what a footprint of 2,000 vertices needs at worst, and
-/// one of 100,000 in practice. Beyond, a hostile outline would take minutes.
-const MAX_PAIRS: usize = 2_000_000;
-
-/// Why the edges of rings do not bound an area; none where they meet at most in points.
-pub(super) fn fault(rings: &[Vec<Plan>]) -> Option<&'static str> {
-    let mut edges: Vec<Edge> = rings.iter().flat_map(|ring| edges(ring)).collect();
-    edges.sort_by(|a, b| a.low[0].total_cmp(&b.low[0]));
-    let mut pairs = 0;
-    for (i, edge) in edges.iter().enumerate() {
-        for other in edges[i + 1..]
-            .iter()
-            .take_while(|other| other.low[0] <= edge.high[0])
-        {
-            pairs += 1;
-            if pairs > MAX_PAIRS {
-                return Some("the outline is too intricate");
+/// Whether rings touch each other; or why they do not bound an area: edges cross, or a ring touches
+/// itself, so that what is inside is anybody's guess.
+pub(super) fn do_touch(rings: &[Vec<Plan>]) -> Result<bool, &'static str> {
+    let closed = |ring: &Vec<Plan>| ring.iter().chain(ring.first()).copied().collect();
+    let closed: Vec<Vec<Plan>> = rings.iter().map(closed).collect();
+    let edges = closed
+        .iter()
+        .enumerate()
+        .flat_map(|(i, ring)| Edge::between(ring, i));
+    let mut touch = false;
+    each_pair(edges.collect(), 0.0, &mut |edge, other| {
+        match contact(edge, other) {
+            Contact::Crossing => return Err("the outline crosses itself"),
+            Contact::Touching if edge.ring != other.ring => touch = true,
+            Contact::Touching if !are_neighbours(edge, other, rings[edge.ring].len()) => {
+                return Err("the outline touches itself");
             }
-            if edge.may_touch(other) && edge.crosses(other) {
-                return Some("the outline crosses itself");
-            }
+            _ => (),
         }
-    }
-    None
+        Ok(())
+    })?;
+    Ok(touch)
 }
 
-/// The edges of a ring whose last vertex leads back to the first.
-fn edges(ring: &[Plan]) -> impl Iterator<Item = Edge> + '_ {
-    let ends = ring.iter().skip(1).chain(ring.first());
-    ring.iter().zip(ends).map(|(a, b)| Edge {
-        ends: [*a, *b],
-        low: [a[0].min(b[0]), a[1].min(b[1])],
-        high: [a[0].max(b[0]), a[1].max(b[1])],
-    })
+/// Whether two edges of a ring of so many share a vertex by their place in it.
+fn are_neighbours(edge: &Edge, other: &Edge, count: usize) -> bool {
+    let apart = edge.index.abs_diff(other.index);
+    apart == 1 || apart + 1 == count
 }
 
-/// An edge with its box.
-struct Edge {
-    ends: [Plan; 2],
-    low: Plan,
-    high: Plan,
+/// How two edges meet.
+#[derive(Debug, PartialEq)]
+enum Contact {
+    /// Not at all.
+    Apart,
+    /// In a point where one of them ends.
+    Touching,
+    /// In more than that.
+    Crossing,
 }
 
-impl Edge {
-    /// Whether the heights of the boxes meet; their widths do already.
-    fn may_touch(&self, other: &Self) -> bool {
-        self.low[1] <= other.high[1] && other.low[1] <= self.high[1]
-    }
-
-    /// Whether two edges have more in common than a point where one of them ends.
-    fn crosses(&self, other: &Self) -> bool {
-        let sides = |line: &Self, of: &Self| of.ends.map(|end| side(line.ends, end));
-        let (a, b) = (sides(self, other), sides(other, self));
-        if a == [Orientation::Collinear; 2] {
-            return self.overlaps(other);
-        }
-        let apart = |sides: [Orientation; 2]| {
-            sides[0] != sides[1] && !sides.contains(&Orientation::Collinear)
+fn contact(edge: &Edge, other: &Edge) -> Contact {
+    let sides = |line: &Edge, of: &Edge| of.ends.map(|end| side(line.ends, end));
+    let (a, b) = (sides(edge, other), sides(other, edge));
+    let is_beside =
+        |sides: [Orientation; 2]| sides[0] == sides[1] && sides[0] != Orientation::Collinear;
+    let is_on = |sides: [Orientation; 2]| sides.contains(&Orientation::Collinear);
+    if a == [Orientation::Collinear; 2] {
+        return match edge.overlaps(other) {
+            true => Contact::Crossing,
+            false if edge.ends.iter().any(|end| other.ends.contains(end)) => Contact::Touching,
+            false => Contact::Apart,
         };
-        apart(a) && apart(b)
     }
-
-    /// Whether two edges on one line share a piece of it.
-    fn overlaps(&self, other: &Self) -> bool {
-        let axis = usize::from(self.high[0] - self.low[0] < self.high[1] - self.low[1]);
-        self.low[axis] < other.high[axis] && other.low[axis] < self.high[axis]
+    if is_beside(a) || is_beside(b) {
+        Contact::Apart
+    } else if is_on(a) || is_on(b) {
+        Contact::Touching
+    } else {
+        Contact::Crossing
     }
 }
 
@@ -82,25 +77,40 @@ fn side([a, b]: [Plan; 2], p: Plan) -> Orientation {
 
 #[cfg(test)]
 mod tests {
+    use super::super::sweep::INTRICATE;
     use super::*;
 
     #[test]
-    fn edges_may_touch_and_not_cross() {
+    fn rings_may_touch_each_other_and_not_cross() {
         let square = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
         let bow = vec![[0.0, 0.0], [4.0, 4.0], [4.0, 0.0], [0.0, 4.0]];
+        let eight = vec![
+            [0.0, 0.0],
+            [2.0, 2.0],
+            [4.0, 4.0],
+            [4.0, 0.0],
+            [2.0, 2.0],
+            [0.0, 4.0],
+        ];
+        let on_edge = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 0.0], [0.0, 4.0]];
         let touching = vec![[0.0, 0.0], [2.0, 3.0], [3.0, 2.0]];
         let flush = vec![[1.0, 0.0], [3.0, 0.0], [2.0, 2.0]];
-        assert_eq!(fault(&[square.clone()]), None);
-        assert_eq!(fault(&[bow]), Some("the outline crosses itself"));
-        assert_eq!(fault(&[square.clone(), touching]), None);
-        assert_eq!(fault(&[square, flush]), Some("the outline crosses itself"));
+        assert_eq!(do_touch(&[square.clone()]), Ok(false));
+        assert_eq!(do_touch(&[square.clone(), touching]), Ok(true));
+        assert_eq!(
+            do_touch(&[square, flush]),
+            Err("the outline crosses itself")
+        );
+        assert_eq!(do_touch(&[bow]), Err("the outline crosses itself"));
+        assert_eq!(do_touch(&[eight]), Err("the outline touches itself"));
+        assert_eq!(do_touch(&[on_edge]), Err("the outline touches itself"));
     }
 
     #[test]
     fn an_outline_that_would_take_too_long_is_refused() {
-        let tooth = |i| [f64::from(i % 2) * 1e3, f64::from(i)];
+        let tooth = |i| [f64::from(i % 2) * 1e4, f64::from(i)];
         let back = [[-1.0, 3000.0], [-1.0, 0.0]];
         let comb = (0..3000).map(tooth).chain(back).collect();
-        assert_eq!(fault(&[comb]), Some("the outline is too intricate"));
+        assert_eq!(do_touch(&[comb]), Err(INTRICATE));
     }
 }

@@ -7,7 +7,7 @@ use super::{Footprint, Rings, Roof};
 const MIN_HEIGHT: f64 = 0.01;
 
 /// Most vertices of a footprint that gets a roof: facets are found by comparing each with each.
-const MAX_ROOFED_VERTICES: usize = 2000;
+const MAX_ROOFED_VERTICES: usize = 200;
 
 /// The surfaces of a closed solid, all oriented outwards, positions shared bit for bit.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! [`Footprint`], an area that can be extruded.
 
 use geo::coordinate_position::{CoordPos, CoordinatePosition};
-use geo::{Coord, LineString, Polygon};
+use geo::{Coord, LineString, Polygon, Validation};
 
 use super::{Plan, crossing};
 
@@ -10,6 +10,9 @@ const MAX_VERTICES: usize = 20_000;
 
 /// Most holes of one footprint: each is compared with each.
 const MAX_HOLES: usize = 1000;
+
+/// Most vertices of a footprint whose rings touch: its edges are compared each with each.
+const MAX_TOUCHING_VERTICES: usize = 500;
 
 /// Most vertices of a ring that may touch another before it counts as outside.
 const MAX_TOUCHES: usize = 16;
@@ -30,6 +33,13 @@ pub(crate) struct Footprint {
 impl Footprint {
     /// Rings in any direction, closed or not, as a footprint; or why they are none.
     pub(crate) fn new(outer: Vec<Plan>, holes: Vec<Vec<Plan>>) -> Result<Self, &'static str> {
+        let footprint = Self::unchecked(outer, holes)?;
+        footprint.check()?;
+        Ok(footprint)
+    }
+
+    /// The same for rings that come from a library which keeps them apart.
+    pub(super) fn unchecked(outer: Vec<Plan>, holes: Vec<Vec<Plan>>) -> Result<Self, &'static str> {
         let vertices: usize = holes.iter().map(Vec::len).sum::<usize>() + outer.len();
         if vertices > MAX_VERTICES {
             return Err("the outline has more than 20000 vertices");
@@ -38,17 +48,22 @@ impl Footprint {
             return Err("the outline has more than 1000 holes");
         }
         let outer = turned(cleaned(outer), 1.0).ok_or(NO_AREA)?;
-        let holes = holes
-            .into_iter()
-            .map(cleaned)
-            .filter_map(|hole| turned(hole, -1.0));
-        let rings: Vec<_> = std::iter::once(outer).chain(holes).collect();
-        if let Some(fault) = crossing::fault(&rings) {
-            return Err(fault);
+        let holes = holes.into_iter().map(cleaned);
+        let holes = holes.filter_map(|hole| turned(hole, -1.0));
+        Ok(Self {
+            rings: std::iter::once(outer).chain(holes).collect(),
+        })
+    }
+
+    /// Finds a fault that would make a solid over this area no solid.
+    pub(crate) fn check(&self) -> Result<(), &'static str> {
+        let touch = crossing::do_touch(&self.rings)?;
+        if touch && self.vertices() > MAX_TOUCHING_VERTICES {
+            return Err("rings of the outline touch");
         }
-        let footprint = Self { rings };
-        match footprint.holes_are_inside() {
-            true => Ok(footprint),
+        // Where rings touch, one may pass from inside to outside through a vertex.
+        match self.holes_are_inside() && (!touch || self.polygon().is_valid()) {
+            true => Ok(()),
             false => Err("a hole is not inside of the outline"),
         }
     }

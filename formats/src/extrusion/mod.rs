@@ -11,6 +11,7 @@ mod length;
 mod roof;
 mod street_width;
 mod strip;
+mod sweep;
 #[cfg(test)]
 mod tests;
 

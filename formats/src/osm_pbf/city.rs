@@ -203,7 +203,9 @@ impl<'a> City<'a> {
             element.areas(&self.plans)?
         } else {
             let width = structure::wall_width(element.tags);
-            strips(&element.lines(&self.plans)?, width, Ends::Square)?
+            let areas = strips(&element.lines(&self.plans)?, width, Ends::Square)?;
+            areas.iter().try_for_each(Footprint::check)?;
+            areas
         };
         let solids = structure::solids(element.kind, element.tags, &areas)?;
         Ok(Feature {

@@ -25,7 +25,6 @@ mod staircase;
 
 use certificate::Certificate;
 use facets::Facets;
-
 use plan::Plan;
 use prism::prisms;
 use stacks::{Stretch, stacks};

@@ -211,11 +211,12 @@ proptest! {
 
     #[test]
     fn crosses_of_any_size_and_direction_give_both_bars(
-        bar in prop::array::uniform4(1..20i32),
+        half in prop::array::uniform2(1..20i32),
+        arm in prop::array::uniform2(5..20i32),
         degrees in 0..90i32,
     ) {
-        let [a, b, c, d] = bar.map(f64::from);
-        let (x, y) = (a + b, c + d);
+        let [a, c] = half.map(f64::from);
+        let [x, y] = [a + f64::from(arm[0]), c + f64::from(arm[1])];
         let turned = DVec2::from_angle(f64::from(degrees).to_radians());
         let cross = [
             [x, -c], [x, c], [a, c], [a, y], [-a, y], [-a, c],

@@ -167,7 +167,7 @@ fn turned_scene(seed: u64) -> Vec<Occluder> {
             let turned = DVec2::from_angle(turn).rotate(on_circle * half * DVec2::new(1.0, narrow));
             (bounds.center() + shift).truncate() + turned
         };
-        let grounded = i % 4 != 0;
+        let grounded = !i.is_multiple_of(4);
         let bottom = if grounded { 0.0 } else { 1.0 };
         let footprint = (0..count).map(corner).collect();
         ConvexPrism::new(footprint, bottom, bounds.max.z + 2.0, grounded).expect("convex")

@@ -76,9 +76,10 @@ impl Border {
     }
 }
 
-/// The vertices of a ring, without the repeated first one.
+/// The vertices of a ring, without repetitions in a row.
 fn ring(line: &LineString<f64>) -> Vec<DVec2> {
     let mut vertices: Vec<DVec2> = line.coords().map(|c| DVec2::new(c.x, c.y)).collect();
+    vertices.dedup();
     if vertices.len() > 1 && vertices.first() == vertices.last() {
         vertices.pop();
     }

@@ -57,7 +57,7 @@ impl Edge {
     fn distance_squared(&self, point: DVec2) -> f64 {
         let along = self.end - self.line.corner;
         let share = (point - self.line.corner).dot(along) / along.length_squared();
-        let nearest = self.line.corner + along * share.max(0.0).min(1.0);
+        let nearest = self.line.corner + along * share.clamp(0.0, 1.0);
         nearest.distance_squared(point)
     }
 }

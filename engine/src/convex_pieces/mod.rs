@@ -105,24 +105,20 @@ fn without_least_corners(mut polygon: Vec<DVec2>) -> Vec<DVec2> {
 /// A piece in absolute coordinates, moved inwards as little as its certificate asks for.
 fn certified(piece: Vec<DVec2>, border: &Border) -> Option<Vec<DVec2>> {
     let middle = piece.iter().sum::<DVec2>() / piece.len() as f64;
-    let exact = |&corner: &DVec2| {
+    let on_vertices = piece.iter().map(|&corner| {
         let inward = || corner + (middle - corner).normalize_or_zero() * INWARD + border.origin;
-        border
-            .vertex_near(corner, SAME_VERTEX)
-            .unwrap_or_else(inward)
-    };
+        let vertex = border.vertex_near(corner, SAME_VERTEX);
+        vertex.unwrap_or_else(inward)
+    });
+    let on_vertices: Vec<DVec2> = on_vertices.collect();
     let is_right =
-        |piece: &Vec<DVec2>| is_strictly_convex(piece) && lies_inside(piece, border.edges());
-    Some(piece.iter().map(exact).collect())
-        .filter(is_right)
-        .or_else(|| {
-            let within = without_least_corners(shrunk(piece, INWARD_ALL));
-            Some(
-                within
-                    .into_iter()
-                    .map(|corner| corner + border.origin)
-                    .collect(),
-            )
-            .filter(is_right)
-        })
+        |piece: &[DVec2]| is_strictly_convex(piece) && lies_inside(piece, border.edges());
+    if is_right(&on_vertices) {
+        return Some(on_vertices);
+    }
+    let mut within = without_least_corners(shrunk(piece, INWARD_ALL));
+    within
+        .iter_mut()
+        .for_each(|corner| *corner += border.origin);
+    is_right(&within).then_some(within)
 }

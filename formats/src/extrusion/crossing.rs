@@ -95,7 +95,7 @@ mod tests {
         let on_edge = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 0.0], [0.0, 4.0]];
         let touching = vec![[0.0, 0.0], [2.0, 3.0], [3.0, 2.0]];
         let flush = vec![[1.0, 0.0], [3.0, 0.0], [2.0, 2.0]];
-        assert_eq!(do_touch(&[square.clone()]), Ok(false));
+        assert_eq!(do_touch(std::slice::from_ref(&square)), Ok(false));
         assert_eq!(do_touch(&[square.clone(), touching]), Ok(true));
         assert_eq!(
             do_touch(&[square, flush]),

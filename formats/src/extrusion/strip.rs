@@ -1,18 +1,23 @@
 //! Lines with a width as areas.
 
 use geo::algorithm::buffer::{Buffer, BufferStyle, LineCap, LineJoin};
-use geo::{LineString, MultiLineString, Polygon};
+use geo::{LineString, Polygon};
 
 use super::footprint::{NO_AREA, line_string};
+use super::frame::minus;
 use super::sweep::{Edge, INTRICATE, each_pair};
 use super::{Footprint, Plan};
 
-/// Most vertices of a line.
-const MAX_VERTICES: usize = 100_000;
+/// Most vertices of a line that is widened as a whole; a longer one is cut, since the effort grows
+/// with the square. Few lines are as long.
+const PIECE: usize = 500;
 
-/// Most edges of a line that lie within its width of an edge, in the mean: where a street of 10 m
+/// Most edges of a piece that lie within its width of an edge, in the mean: where a street of 10 m
 /// is drawn metre by metre there are 20.
-const MAX_NEIGHBOURS: usize = 50;
+const MAX_NEIGHBOURS: usize = 30;
+
+/// Why a line that stays in a point has no area.
+const NO_LENGTH: &str = "the line has no length";
 
 /// Largest angle between neighbours on a round end or bend, radians.
 const ROUND: f64 = 0.5;
@@ -29,24 +34,56 @@ pub(crate) enum Ends {
     Square,
 }
 
-/// The areas within half a width of lines; or why there are none.
+/// The areas within half a width of lines, which may overlap; or why there are none.
 pub(crate) fn strips(
     lines: &[Vec<Plan>],
     width: f64,
     ends: Ends,
 ) -> Result<Vec<Footprint>, &'static str> {
-    if lines.iter().map(Vec::len).sum::<usize>() > MAX_VERTICES {
-        return Err("the line has more than 100000 vertices");
+    let mut areas = Vec::new();
+    for line in lines {
+        let line = closed_over(line);
+        for start in (0..line.len().saturating_sub(1)).step_by(PIECE - 1) {
+            let piece = &line[start..line.len().min(start + PIECE)];
+            refuse_intricate(piece, width)?;
+            for area in widened(piece, width, ends) {
+                match area {
+                    // Slivers between bends have no area, and are no loss.
+                    Err(NO_AREA) => (),
+                    area => areas.push(area?),
+                }
+            }
+        }
     }
-    let Some(origin) = lines.iter().find_map(|line| line.first()).copied() else {
-        return Err("the line has no length");
-    };
-    let local = |line: &Vec<Plan>| line_around(line, origin);
-    let lines: Vec<LineString> = lines.iter().filter_map(local).collect();
-    if lines.is_empty() {
-        return Err("the line has no length");
+    match areas.is_empty() {
+        true => Err(NO_LENGTH),
+        false => Ok(areas),
     }
-    refuse_intricate(&lines, width)?;
+}
+
+/// A line without repeated positions; a closed one overlaps itself by an edge, so that it has a
+/// bend where it closes.
+fn closed_over(line: &[Plan]) -> Vec<Plan> {
+    let mut line = line.to_vec();
+    line.dedup();
+    if line.len() > 3 && line.first() == line.last() {
+        line.push(line[1]);
+    }
+    line
+}
+
+/// Refuses a line that runs beside and across itself so much that its area would take long.
+fn refuse_intricate(line: &[Plan], width: f64) -> Result<(), &'static str> {
+    let most = MAX_NEIGHBOURS * line.len();
+    let mut count = 0;
+    each_pair(Edge::between(line, 0).collect(), width, &mut |_, _| {
+        count += 1;
+        if count > most { Err(INTRICATE) } else { Ok(()) }
+    })
+}
+
+/// The areas around a line of at least two vertices.
+fn widened(line: &[Plan], width: f64, ends: Ends) -> Vec<Result<Footprint, &'static str>> {
     let style = match ends {
         Ends::Round => BufferStyle::new(width / 2.0)
             .line_cap(LineCap::Round(ROUND))
@@ -55,43 +92,17 @@ pub(crate) fn strips(
             .line_cap(LineCap::Butt)
             .line_join(LineJoin::Miter(SHARPEST_CORNER)),
     };
-    let areas = MultiLineString::new(lines).buffer_with_style(style);
-    let areas = areas.into_iter().map(|area| footprint(&area, origin));
-    // Slivers between bends have no area, and are no loss.
-    let areas = areas.filter(|area| *area != Err(NO_AREA));
-    let areas: Vec<_> = areas.collect::<Result<_, _>>()?;
-    match areas.is_empty() {
-        true => Err(NO_AREA),
-        false => Ok(areas),
-    }
-}
-
-/// Refuses lines that run beside and across themselves so much that their area would take minutes.
-fn refuse_intricate(lines: &[LineString], width: f64) -> Result<(), &'static str> {
-    let plan = |line: &LineString| line.coords().map(|c| [c.x, c.y]).collect::<Vec<Plan>>();
-    let plans: Vec<_> = lines.iter().map(plan).collect();
-    let edges = plans.iter().flat_map(|line| Edge::between(line, 0));
-    let edges: Vec<_> = edges.collect();
-    let most = MAX_NEIGHBOURS * edges.len();
-    let mut count = 0;
-    each_pair(edges, width, &mut |_, _| {
-        count += 1;
-        if count > most { Err(INTRICATE) } else { Ok(()) }
-    })
-}
-
-/// A line by offsets from an origin; a closed one overlaps itself by an edge, so that it has a bend
-/// where it closes. None without a length.
-fn line_around(line: &[Plan], origin: Plan) -> Option<LineString> {
-    let mut line: Vec<Plan> = line
+    // By offsets from its start, so that coordinates keep their digits.
+    let origin = line.first().copied().unwrap_or_default();
+    let local: Vec<Plan> = line
         .iter()
-        .map(|[x, y]| [x - origin[0], y - origin[1]])
+        .map(|position| minus(*position, origin))
         .collect();
-    line.dedup();
-    if line.len() > 3 && line.first() == line.last() {
-        line.push(line[1]);
-    }
-    (line.len() >= 2).then(|| line_string(&line))
+    let areas = line_string(&local).buffer_with_style(style);
+    areas
+        .into_iter()
+        .map(|area| footprint(&area, origin))
+        .collect()
 }
 
 fn footprint(area: &Polygon, origin: Plan) -> Result<Footprint, &'static str> {
@@ -121,7 +132,7 @@ mod tests {
     #[test]
     fn strips_have_their_width() {
         let line = vec![[385_000.0, 6_672_000.0], [385_010.0, 6_672_000.0]];
-        assert!((area(&[line.clone()], Ends::Square) - 20.0).abs() < 1e-4);
+        assert!((area(std::slice::from_ref(&line), Ends::Square) - 20.0).abs() < 1e-4);
         let round = area(&[line], Ends::Round) - 20.0;
         assert!((2.8..3.15).contains(&round), "{round}");
     }
@@ -139,6 +150,32 @@ mod tests {
         assert_eq!(strips.len(), 1);
         assert_eq!(strips[0].rings().len(), 2);
         assert!((strips[0].area() - (144.0 - 64.0)).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_long_line_is_widened_in_pieces() {
+        let line: Vec<Plan> = (0..1500)
+            .map(|i| [f64::from(i), f64::from(i % 7) / 10.0])
+            .collect();
+        let strips = strips(&[line], 10.0, Ends::Round).unwrap();
+        assert_eq!(strips.len(), 4);
+        let bounds = strips
+            .iter()
+            .flat_map(|strip| &strip.rings()[0])
+            .map(|p| p[0]);
+        let (low, high) = bounds.fold((0.0, 0.0), |(l, h): (f64, f64), x| (l.min(x), h.max(x)));
+        assert!(
+            (low + 5.0).abs() < 0.2 && (high - 1504.0).abs() < 0.2,
+            "{low} {high}"
+        );
+    }
+
+    #[test]
+    fn a_scribble_is_refused() {
+        let line = (0..400)
+            .map(|i| f64::from(i) * 2.4)
+            .map(|a| [a.cos() * 99.0, a.sin() * 99.0]);
+        assert_eq!(strips(&[line.collect()], 1.0, Ends::Round), Err(INTRICATE));
     }
 
     #[test]

@@ -58,10 +58,12 @@ fn normal(rings: &Rings, around: [f64; 3]) -> [f64; 3] {
     for ring in rings {
         for (a, b) in ring.iter().zip(ring.iter().skip(1).chain(ring.first())) {
             let [a, b] = [a, b].map(|p| [0, 1, 2].map(|i| p[i] - around[i]));
-            for i in 0..3 {
-                let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-                sum[i] += a[j] * b[k] - a[k] * b[j];
-            }
+            let cross = [
+                a[1] * b[2] - a[2] * b[1],
+                a[2] * b[0] - a[0] * b[2],
+                a[0] * b[1] - a[1] * b[0],
+            ];
+            sum = [0, 1, 2].map(|i| sum[i] + cross[i]);
         }
     }
     sum

@@ -1,5 +1,18 @@
-//! OpenStreetMap PBF: buildings by the Simple 3D Buildings rules, walls, bridges and streets, all
-//! standing on a plane at height zero.
+//! OpenStreetMap PBF: buildings by the Simple 3D Buildings rules, walls, bridges and streets.
+//!
+//! - Everything stands on a plane at height zero, since the format knows no terrain.
+//! - `height` comes before `building:levels`, of 3 m each and without the roof, and both before a
+//!   height for the kind of building. Tags that are no lengths are ignored and told.
+//! - Where parts lie inside of an outline, they are the building, and what they lack is as for the
+//!   outline. A part that is alone becomes a building.
+//! - Roofs are flat, skillion, gabled, saltbox, gambrel, round, hipped, pyramidal or domes. Others
+//!   become the nearest of these, or flat, at full height, where the outline does not fit: a hipped
+//!   roof needs four corners, pyramids and domes a middle that sees every side. Both are told. A
+//!   skillion roof without a direction slopes across the building.
+//! - Walls are widened lines, or areas. Areas of bridges are slabs 5 m up for each layer.
+//! - Streets are as wide as `width` says, or 3 m a lane and 2 m a pavement, or as their kind mostly
+//!   is. Tunnels, passages, bridges and what lies underground are left out. Squares are pedestrian
+//!   areas, `place=square` and car parks under the open sky.
 
 mod blob;
 mod block;

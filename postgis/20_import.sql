@@ -3,7 +3,7 @@
 -- Whether a geometry is made of faces in space, rather than a footprint that is to be raised.
 CREATE FUNCTION occlusion.has_faces(shape geometry) RETURNS boolean
 LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
-RETURN ST_Zmflag(shape) IN (2, 3) AND ST_Dimension(shape) = 2
+RETURN ST_Zmflag(shape) IN (2, 3) AND ST_Dimension(shape) >= 2
        AND (ST_ZMin(shape) < ST_ZMax(shape) OR GeometryType(shape) NOT IN ('POLYGON', 'MULTIPOLYGON'));
 COMMENT ON FUNCTION occlusion.has_faces(geometry) IS
     'whether a geometry is made of faces in space: it has z, and is no level polygon';

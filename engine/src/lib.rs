@@ -21,10 +21,10 @@ mod view_region;
 mod volumes;
 
 pub use box3d::Box3d;
+pub use city::{BoxCity, City, CityFeature, CityLayout, generated_city, scattered_city};
 pub use columns::{ColumnOptions, SolidColumns, solid_columns};
 pub use convex_pieces::{ConvexPieceOptions, convex_pieces};
 pub use convex_prism::ConvexPrism;
-pub use city::{BoxCity, City, CityFeature, CityLayout, generated_city, scattered_city};
 pub use field_of_view::{ViewCone, ViewSector, in_range};
 pub use mesh::{
     Closedness, Extrusion, GROUND_TOLERANCE, InnerEnvelope, MeshDefect, PolygonDefect,

@@ -79,7 +79,11 @@ impl<'a> Importer<'a> {
                 Failure::Input(format!("{place}: {problem}"))
             })
         };
-        let solids: Vec<Solid> = batch.features.par_iter().map(solid).collect::<Result<_, _>>()?;
+        let solids: Vec<Solid> = batch
+            .features
+            .par_iter()
+            .map(solid)
+            .collect::<Result<_, _>>()?;
         let ids = rows::features(&mut self.transaction, self.scene, &batch.features, &solids)?;
         rows::shapes(&mut self.transaction, self.scene, &ids, &solids)?;
         rows::models(&mut self.transaction, self.scene, &ids, &solids)?;

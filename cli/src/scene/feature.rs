@@ -57,7 +57,10 @@ impl Feature {
     pub fn pieces(&self) -> Vec<Prism> {
         let solids: Vec<SolidColumn> = self.solids().collect();
         let pieces = convex_pieces(&solids, &ConvexPieceOptions::default());
-        pieces.iter().filter_map(|piece| prism(piece).ok()).collect()
+        pieces
+            .iter()
+            .filter_map(|piece| prism(piece).ok())
+            .collect()
     }
 
     /// Its true surface: the triangles of its mesh, or, where it has none, the faces of its inner

@@ -174,7 +174,10 @@ fn counts(scene: &Scene, volumes: usize) -> [(&'static str, usize); 5] {
             "inner envelopes",
             features().filter(|feature| feature.inner.is_some()).count(),
         ),
-        ("solid columns", features().map(|feature| feature.columns.len()).sum()),
+        (
+            "solid columns",
+            features().map(|feature| feature.columns.len()).sum(),
+        ),
         ("occlusion volumes", volumes),
     ]
 }

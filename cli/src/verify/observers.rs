@@ -58,7 +58,10 @@ fn on_volume(volumes: &[Volume], streets: &Streets, rng: &mut Rng) -> Option<[f6
 /// An eye anywhere in the streets, outside of what is known to be solid.
 fn in_street(scene: &Scene, streets: &Streets, rng: &mut Rng) -> Option<[f64; 3]> {
     let is_free = |eye: &[f64; 3]| {
-        !scene.features.iter().any(|feature| feature.is_solid_at(*eye))
+        !scene
+            .features
+            .iter()
+            .any(|feature| feature.is_solid_at(*eye))
     };
     (0..TRIES)
         .filter_map(|_| streets.random_eye(rng))

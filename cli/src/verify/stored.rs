@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use indicatif::ParallelProgressIterator;
 use engine::SolidColumn;
+use indicatif::ParallelProgressIterator;
 use oracle::{
     Column, Prism, ShapeFault, check_column, check_grounded, check_inner_envelope,
     check_piece_in_column, check_volume,
@@ -80,7 +80,12 @@ fn column_faults(feature: &Feature) -> Vec<String> {
         };
         Some(format!("solid column {}: {fault}", number + 1))
     };
-    feature.columns.iter().enumerate().filter_map(fault).collect()
+    feature
+        .columns
+        .iter()
+        .enumerate()
+        .filter_map(fault)
+        .collect()
 }
 
 /// A column as the oracle takes it.

@@ -1,6 +1,7 @@
 //! [`deviation`], how far one surface strays from another.
 
 use glam::DVec3;
+use rstar::primitives::CachedEnvelope;
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
 use super::triangle_mesh::TriangleMesh;
@@ -15,27 +16,43 @@ pub fn deviation(a: &TriangleMesh, b: &TriangleMesh) -> Option<f64> {
 }
 
 fn greatest_distance(from: &TriangleMesh, to: &TriangleMesh) -> Option<f64> {
-    let surface = RTree::bulk_load(to.corners().map(Face).collect());
-    let samples = from.corners().flat_map(|[a, b, c]| {
-        let middles = [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0];
-        [
-            a,
-            b,
-            c,
-            middles[0],
-            middles[1],
-            middles[2],
-            (a + b + c) / 3.0,
-        ]
+    let faces = to
+        .corners()
+        .map(|corners| CachedEnvelope::new(Face(corners)));
+    let surface = RTree::bulk_load(faces.collect());
+    let mut greatest_2 = None;
+    for sample in samples(from).map(|sample| sample.to_array()) {
+        // Most samples are near enough to some face, which is soon found.
+        let is_near = |within_2| {
+            surface
+                .locate_within_distance(sample, within_2)
+                .next()
+                .is_some()
+        };
+        if !greatest_2.is_some_and(is_near) {
+            let nearest = surface.nearest_neighbor(sample)?;
+            greatest_2 = Some(
+                nearest
+                    .distance_2(&sample)
+                    .max(greatest_2.unwrap_or_default()),
+            );
+        }
+    }
+    greatest_2.map(f64::sqrt)
+}
+
+/// All vertices, middles of edges and centroids.
+fn samples(mesh: &TriangleMesh) -> impl Iterator<Item = DVec3> {
+    let inner = mesh.corners().flat_map(|[a, b, c]| {
+        let edges = [[a, b], [b, c], [c, a]];
+        // An edge has two triangles, but for the border, whose ends are vertices.
+        let once = edges
+            .into_iter()
+            .filter(|[from, to]| from.to_array() < to.to_array());
+        let middles = once.map(|[from, to]| (from + to) / 2.0);
+        middles.chain([(a + b + c) / 3.0])
     });
-    let distance_2 = |sample: DVec3| {
-        let nearest = surface.nearest_neighbor(sample.to_array())?;
-        Some(nearest.distance_2(&sample.to_array()))
-    };
-    samples
-        .filter_map(distance_2)
-        .reduce(f64::max)
-        .map(f64::sqrt)
+    mesh.vertices.iter().copied().chain(inner)
 }
 
 /// A triangle that knows how far it is.

@@ -24,7 +24,7 @@ fn import_rows(scene: &str, source: &str, query: &str) -> i64 {
     let first = next_feature(scene);
     let made = Spi::connect_mut(|client| {
         let cursor = client.open_cursor(query, &[]).detach_into_name();
-        let mut writer = Writer::new(client, scene, source)?;
+        let writer = Writer::new(client, scene, source)?;
         let mut made = 0;
         loop {
             let sources = fetch(client, &cursor)?;
@@ -48,7 +48,8 @@ fn next_feature(scene: &str) -> i64 {
     let query = "SELECT pg_catalog.nextval(pg_catalog.pg_get_serial_sequence($1, 'id'))";
     let table = format!("{}.feature", quoted(scene));
     let next = Spi::get_one_with_args::<i64>(query, &[table.into()]);
-    next.unwrap_or_else(|error| scene::failed(&error)).unwrap_or_default()
+    next.unwrap_or_else(|error| scene::failed(&error))
+        .unwrap_or_default()
 }
 
 fn fetch(client: &SpiClient<'_>, cursor: &str) -> Result<Vec<Source>, pgrx::spi::Error> {

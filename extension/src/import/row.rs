@@ -64,7 +64,9 @@ fn raised(rings: Vec<Option<String>>, bottom: Option<f64>, top: Option<f64>) -> 
 
 /// The polygons of rings, those after a null another one's; `None` where there is none.
 fn footprints(rings: &[Option<String>]) -> Option<Vec<Polygon<f64>>> {
-    let polygons = rings.split(Option::is_none).filter(|rings| !rings.is_empty());
+    let polygons = rings
+        .split(Option::is_none)
+        .filter(|rings| !rings.is_empty());
     let polygons: Option<Vec<_>> = polygons
         .map(|rings| polygon::area(&rings.iter().flatten().cloned().collect::<Vec<_>>()))
         .collect();

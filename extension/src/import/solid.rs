@@ -28,7 +28,9 @@ impl Solid {
                 let surfaces = formats::read_wkb(binary).map_err(|problem| problem.to_string())?;
                 let ring = |ring: &Vec<[f64; 3]>| ring.iter().copied().map(DVec3::from).collect();
                 let mesh = TriangleMesh::from_polygons(
-                    surfaces.iter().map(|s| s.rings.iter().map(ring).collect::<Vec<Vec<_>>>()),
+                    surfaces
+                        .iter()
+                        .map(|s| s.rings.iter().map(ring).collect::<Vec<Vec<_>>>()),
                 );
                 (engine::Solid::of(mesh, &ColumnOptions::default()), 2.0)
             }

@@ -5,11 +5,12 @@ use super::solid::Solid;
 use crate::scene::{polygon, quoted};
 use crate::types::Box3d;
 use pgrx::JsonB;
-use pgrx::spi::{OwnedPreparedStatement, SpiClient};
 use pgrx::PgOid;
 use pgrx::pg_sys::BuiltinOid::{
-    self, BOOLOID, FLOAT8ARRAYOID, FLOAT8OID, INT4ARRAYOID, INT8OID, JSONBOID, TEXTARRAYOID, TEXTOID,
+    self, BOOLOID, FLOAT8ARRAYOID, FLOAT8OID, INT4ARRAYOID, INT8OID, JSONBOID, TEXTARRAYOID,
+    TEXTOID,
 };
+use pgrx::spi::{OwnedPreparedStatement, SpiClient};
 
 type Spi<T> = Result<T, pgrx::spi::Error>;
 
@@ -29,7 +30,7 @@ impl Writer {
     pub fn new(client: &mut SpiClient<'_>, scene: &str, source: &str) -> Spi<Self> {
         let scene = quoted(scene);
         let box3d: PgOid = PgOid::from(<Box3d as pgrx::IntoDatum>::type_oid());
-        let mut prepare = |statement: String, types: &[PgOid]| -> Spi<OwnedPreparedStatement> {
+        let prepare = |statement: String, types: &[PgOid]| -> Spi<OwnedPreparedStatement> {
             Ok(client.prepare_mut(statement.as_str(), types)?.keep())
         };
         let of = |types: &[BuiltinOid]| -> Vec<PgOid> {
@@ -38,7 +39,10 @@ impl Writer {
         Ok(Self {
             source: source.to_owned(),
             next: prepare(
-                format!("SELECT pg_catalog.nextval(pg_catalog.pg_get_serial_sequence('{}', 'id'))", format!("{scene}.feature").replace('\'', "''")),
+                format!(
+                    "SELECT pg_catalog.nextval(pg_catalog.pg_get_serial_sequence('{}', 'id'))",
+                    format!("{scene}.feature").replace('\'', "''")
+                ),
                 &[],
             )?,
             feature: prepare(
@@ -46,7 +50,12 @@ impl Writer {
                     "INSERT INTO {scene}.feature (id, name, class, envelope, outline, attributes) \
                      VALUES ($1, $2, $3, $4, $5::pg_catalog.polygon, $6)"
                 ),
-                &[of(&[INT8OID, TEXTOID, TEXTOID]), vec![box3d], of(&[TEXTOID, JSONBOID])].concat(),
+                &[
+                    of(&[INT8OID, TEXTOID, TEXTOID]),
+                    vec![box3d],
+                    of(&[TEXTOID, JSONBOID]),
+                ]
+                .concat(),
             )?,
             mesh: prepare(
                 format!(
@@ -54,10 +63,19 @@ impl Writer {
                      (feature, level_of_detail, vertices, triangles, defect, repair) \
                      VALUES ($1, $2, $3, $4, $5, $6)"
                 ),
-                &of(&[INT8OID, FLOAT8OID, FLOAT8ARRAYOID, INT4ARRAYOID, TEXTOID, TEXTOID]),
+                &of(&[
+                    INT8OID,
+                    FLOAT8OID,
+                    FLOAT8ARRAYOID,
+                    INT4ARRAYOID,
+                    TEXTOID,
+                    TEXTOID,
+                ]),
             )?,
             inner_envelope: prepare(
-                format!("INSERT INTO {scene}.inner_envelope (feature, box, grounded) VALUES ($1, $2, $3)"),
+                format!(
+                    "INSERT INTO {scene}.inner_envelope (feature, box, grounded) VALUES ($1, $2, $3)"
+                ),
                 &[of(&[INT8OID]), vec![box3d], of(&[BOOLOID])].concat(),
             )?,
             solid_column: prepare(
@@ -99,7 +117,10 @@ impl Writer {
 
     fn write_feature(&self, client: &mut SpiClient<'_>, source: &Source, solid: &Solid) -> Spi<()> {
         let id: Option<i64> = client.update(&self.next, None, &[])?.first().get(1)?;
-        let outline = solid.prism.as_ref().map(|prism| polygon::corners_text(&prism.hull));
+        let outline = solid
+            .prism
+            .as_ref()
+            .map(|prism| polygon::corners_text(&prism.hull));
         client.update(
             &self.feature,
             None,
@@ -124,8 +145,18 @@ impl Writer {
                 solid.level_of_detail.into(),
                 vertices.into(),
                 triangles.into(),
-                solid.solid.hides.as_ref().err().map(ToString::to_string).into(),
-                solid.solid.closed_at.map(|foot| format!("closed at its foot, {foot} m")).into(),
+                solid
+                    .solid
+                    .hides
+                    .as_ref()
+                    .err()
+                    .map(ToString::to_string)
+                    .into(),
+                solid
+                    .solid
+                    .closed_at
+                    .map(|foot| format!("closed at its foot, {foot} m"))
+                    .into(),
             ],
         )?;
         if let Ok(hides) = &solid.solid.hides {
@@ -161,5 +192,8 @@ impl Writer {
 }
 
 fn class(source: &Source) -> String {
-    source.class.clone().unwrap_or_else(|| "Building".to_owned())
+    source
+        .class
+        .clone()
+        .unwrap_or_else(|| "Building".to_owned())
 }

@@ -22,7 +22,8 @@ impl Content<'_> {
     pub fn fill(&self, feature: &mut Feature, level_of_detail: f64) -> Result<(), Refusal> {
         match self {
             Self::Packed(bytes) => {
-                let (parts, geometries) = formats::unpack(bytes).map_err(|e| damaged(feature, &e))?;
+                let (parts, geometries) =
+                    formats::unpack(bytes).map_err(|e| damaged(feature, &e))?;
                 feature.parts = parts;
                 feature.geometries = geometries;
             }

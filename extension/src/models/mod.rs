@@ -54,7 +54,9 @@ fn merged_models(
     scene::require(scene);
     let choice = Choice::new(features, level_of_detail, most_error);
     let srid = read::srid(scene);
-    let models: Vec<formats::Model> =
-        models(scene, &choice).into_iter().filter_map(|row| row.model).collect();
+    let models: Vec<formats::Model> = models(scene, &choice)
+        .into_iter()
+        .filter_map(|row| row.model)
+        .collect();
     format.write(&models, srid)
 }

@@ -122,7 +122,13 @@ fn row_of(row: &SpiHeapTupleData) -> Result<Row, pgrx::spi::Error> {
             level_of_detail = row.get(9)?;
             Content::Mesh(vertices, triangles)
         }
-        _ => return Ok(Row { feature: id, level_of_detail: None, model: None }),
+        _ => {
+            return Ok(Row {
+                feature: id,
+                level_of_detail: None,
+                model: None,
+            });
+        }
     };
     or_raise(content.fill(&mut feature, level_of_detail.unwrap_or_default()));
     Ok(Row {

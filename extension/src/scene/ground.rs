@@ -33,12 +33,15 @@ pub fn settle(scene: &str, first_feature: i64) -> (i64, i64) {
     let scene = quoted(scene);
     let ground = LocalGround::new(&envelopes(&scene));
     let hangs = |solid: &&Standing| {
-        let stands = solid.class.starts_with("Building") && ground.holds(&solid.envelope, solid.foot);
+        let stands =
+            solid.class.starts_with("Building") && ground.holds(&solid.envelope, solid.foot);
         !stands
     };
     let standing = standing(&scene, first_feature);
-    let (open, aloft): (Vec<&Standing>, Vec<&Standing>) =
-        standing.iter().filter(hangs).partition(|solid| solid.repaired);
+    let (open, aloft): (Vec<&Standing>, Vec<&Standing>) = standing
+        .iter()
+        .filter(hangs)
+        .partition(|solid| solid.repaired);
     let ids = |solids: &[&Standing]| -> Vec<i64> { solids.iter().map(|solid| solid.id).collect() };
     let theirs = "feature OPERATOR(pg_catalog.=) ANY ($1)";
     for table in ["inner_envelope", "solid_column"] {
@@ -69,7 +72,11 @@ fn envelopes(scene: &str) -> Vec<engine::Box3d> {
             .collect::<Result<Vec<_>, _>>()
     });
     let envelopes = envelopes.unwrap_or_else(|error| failed(&error));
-    envelopes.into_iter().flatten().map(|bounds| bounds.0).collect()
+    envelopes
+        .into_iter()
+        .flatten()
+        .map(|bounds| bounds.0)
+        .collect()
 }
 
 /// The features from a number on that have a grounded solid, or a bottom that was added.

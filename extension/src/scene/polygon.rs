@@ -12,7 +12,10 @@ fn ring_text(ring: &LineString<f64>) -> String {
 
 /// A ring of corners as core writes it.
 pub fn corners_text(corners: &[DVec2]) -> String {
-    let points: Vec<String> = corners.iter().map(|c| format!("({:?},{:?})", c.x, c.y)).collect();
+    let points: Vec<String> = corners
+        .iter()
+        .map(|c| format!("({:?},{:?})", c.x, c.y))
+        .collect();
     format!("({})", points.join(","))
 }
 

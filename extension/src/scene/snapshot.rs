@@ -50,7 +50,11 @@ impl Snapshot {
         let mut names: Vec<i64> = volumes.iter().map(|volume| volume.occluder).collect();
         names.sort_unstable();
         names.dedup();
-        let solids = Solids::read(&scene, &format!("feature {theirs}"), &[names.clone().into()]);
+        let solids = Solids::read(
+            &scene,
+            &format!("feature {theirs}"),
+            &[names.clone().into()],
+        );
         let same: HashSet<i64> = names
             .into_iter()
             .filter(|&feature| self.solids.same(&solids, feature))

@@ -25,7 +25,8 @@ impl Solids {
         let read = Spi::connect_mut(|client| {
             for row in client.update(&columns, None, arguments)? {
                 let footprint: Option<Vec<Option<String>>> = row.get(2)?;
-                let rings: Option<Vec<String>> = footprint.unwrap_or_default().into_iter().collect();
+                let rings: Option<Vec<String>> =
+                    footprint.unwrap_or_default().into_iter().collect();
                 let footprint = rings.and_then(|rings| polygon::area(&rings));
                 let (feature, bottom, top, grounded) =
                     (row.get(1)?, row.get(3)?, row.get(4)?, row.get(5)?);
@@ -74,7 +75,9 @@ impl Solids {
         features
             .into_par_iter()
             .flat_map_iter(|(&feature, columns)| {
-                convex_pieces(columns, &options).into_iter().map(occluder(feature))
+                convex_pieces(columns, &options)
+                    .into_iter()
+                    .map(occluder(feature))
             })
             .collect()
     }

@@ -26,16 +26,3 @@ mod writer;
 pub use delivery::delivered_positions;
 pub(crate) use reader::read;
 pub use writer::{GlbError, write_glb};
-
-/// Bytes in which a document names one of the members that only glTF has.
-const BEGINNING: usize = 4096;
-
-/// Whether JSON that begins with these bytes is a glTF document.
-pub(crate) fn is_document(start: &[u8]) -> bool {
-    let start = String::from_utf8_lossy(&start[..start.len().min(BEGINNING)]);
-    let names = |member: &str| start.contains(&format!("\"{member}\""));
-    !names("CityJSON")
-        && ["asset", "accessors", "bufferViews", "meshes"]
-            .into_iter()
-            .any(names)
-}

@@ -11,4 +11,4 @@ mod lines;
 mod materials;
 mod reader;
 
-pub(crate) use reader::{read, recognises};
+pub(crate) use reader::read;

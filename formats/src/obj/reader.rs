@@ -19,27 +19,6 @@ const LIMITS: Limits = Limits {
     ..Limits::STANDARD
 };
 
-/// Whether a file that begins like this is one: its first statement is, or all so far is comments.
-pub(crate) fn recognises(start: &[u8]) -> bool {
-    let lines = start.split(|byte| matches!(byte, b'\n' | b'\r'));
-    let mut lines = lines
-        .map(<[u8]>::trim_ascii)
-        .filter(|line| !line.is_empty());
-    let Some(statement) = lines.find(|line| !line.starts_with(b"#")) else {
-        return start.trim_ascii().starts_with(b"#");
-    };
-    let keyword = statement
-        .split(u8::is_ascii_whitespace)
-        .next()
-        .unwrap_or_default();
-    FIRST_KEYWORDS.contains(&keyword)
-}
-
-/// What files begin with.
-const FIRST_KEYWORDS: [&[u8]; 9] = [
-    b"v", b"vn", b"vt", b"o", b"g", b"f", b"s", b"mtllib", b"usemtl",
-];
-
 /// What begins a feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Division {

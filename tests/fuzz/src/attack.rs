@@ -40,7 +40,11 @@ impl Attack {
         let seeds = seeds(self.reader);
         let refused = seeds.iter().filter(|seed| !self.reader.read(seed)).count();
         if refused > 0 {
-            println!("{}: {refused} of {} seeds are not read", self.reader.name(), seeds.len());
+            println!(
+                "{}: {refused} of {} seeds are not read",
+                self.reader.name(),
+                seeds.len()
+            );
             return false;
         }
         let mut rng = Rng::with_seed(self.seed);

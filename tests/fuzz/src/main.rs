@@ -51,7 +51,12 @@ fn main() -> ExitCode {
     let time = Duration::from_secs(arguments.seconds);
     let withstood = |reader: &Reader| Attack::new(*reader, arguments.seed).run(time);
     // Every reader is attacked, whatever became of the others.
-    match readers.iter().map(withstood).filter(|withstood| !withstood).count() {
+    match readers
+        .iter()
+        .map(withstood)
+        .filter(|withstood| !withstood)
+        .count()
+    {
         0 => ExitCode::SUCCESS,
         _ => ExitCode::FAILURE,
     }

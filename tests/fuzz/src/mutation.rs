@@ -4,8 +4,20 @@ use fastrand::Rng;
 
 /// Numbers that are often forgotten.
 const NUMBERS: [&str; 14] = [
-    "0", "-1", "1", "255", "65535", "65536", "2147483647", "4294967295", "4294967296", "1e308",
-    "-1e308", "1e-308", "NaN", "18446744073709551615",
+    "0",
+    "-1",
+    "1",
+    "255",
+    "65535",
+    "65536",
+    "2147483647",
+    "4294967295",
+    "4294967296",
+    "1e308",
+    "-1e308",
+    "1e-308",
+    "NaN",
+    "18446744073709551615",
 ];
 
 /// Bytes that are often forgotten.
@@ -46,7 +58,11 @@ fn mutate(bytes: &mut Vec<u8>, others: &[Vec<u8>], words: &[&str], rng: &mut Rng
         }
         5 => {
             let number = rng.u32(..).to_le_bytes();
-            let number = if rng.bool() { number } else { [0xff, 0xff, 0xff, rng.u8(..)] };
+            let number = if rng.bool() {
+                number
+            } else {
+                [0xff, 0xff, 0xff, rng.u8(..)]
+            };
             let end = bytes.len().min(range.start + 4);
             bytes.splice(range.start..end, number);
         }
@@ -84,7 +100,10 @@ fn number_near(bytes: &[u8], start: usize) -> std::ops::Range<usize> {
         return start..start;
     };
     let first = start + first;
-    let length = bytes[first..].iter().take_while(|byte| is_digit(byte)).count();
+    let length = bytes[first..]
+        .iter()
+        .take_while(|byte| is_digit(byte))
+        .count();
     first..first + length
 }
 
@@ -103,7 +122,13 @@ mod tests {
         };
         assert_eq!(run(1), run(1));
         assert_ne!(run(1), run(2));
-        assert!(run(3).iter().filter(|bytes| bytes.as_slice() != seed).count() > 80);
+        assert!(
+            run(3)
+                .iter()
+                .filter(|bytes| bytes.as_slice() != seed)
+                .count()
+                > 80
+        );
     }
 
     #[test]

@@ -76,6 +76,13 @@ impl Reader {
             ..ReadOptions::default()
         };
         let mut sink = |_| ControlFlow::Continue(());
-        formats::read_as(format, "input", &mut Cursor::new(bytes), &options, &mut sink).is_ok()
+        formats::read_as(
+            format,
+            "input",
+            &mut Cursor::new(bytes),
+            &options,
+            &mut sink,
+        )
+        .is_ok()
     }
 }

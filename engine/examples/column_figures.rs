@@ -81,11 +81,15 @@ fn main() {
     counts.sort_unstable();
     let total: usize = counts.iter().sum();
     println!("features {}, with columns {}", meshes.len(), counts.len());
-    println!("share of volume {:.4}", covered / volume);
+    println!(
+        "share of volume {:.4}",
+        if volume > 0.0 { covered / volume } else { 0.0 }
+    );
+    let (median, most) = (counts.get(counts.len() / 2), counts.last());
     println!(
         "columns: median {}, most {}",
-        counts[counts.len() / 2],
-        counts[counts.len() - 1]
+        median.unwrap_or(&0),
+        most.unwrap_or(&0)
     );
     println!("columns in all {total}, grounded {grounded}, corners {corners}");
     println!(

@@ -11,6 +11,13 @@ use crate::predicates::turn;
 /// that line but for rounding.
 const STRAIGHT: f64 = 1e-6;
 
+/// An exact corner is left out this close to that line where leaving it out makes the outline no
+/// larger, metres: it is meant to be on the line, and the plan bends lines by half of this.
+const FLAT: f64 = 2e-7;
+
+/// A needle narrower than this at its foot is cut off, metres.
+const NEEDLE: f64 = 1e-3;
+
 /// A corner moves by no more than this many times the distance that its edges move.
 const SHARPEST: f64 = 4.0;
 
@@ -53,7 +60,7 @@ impl Outline {
         is_simple.then_some(Self { rings })
     }
 
-    /// Without corners that only divide a straight edge.
+    /// Without corners that only divide a straight edge or end a needle.
     pub fn straightened(&self) -> Option<Self> {
         Self::new(self.rings.iter().map(|ring| straightened(ring)).collect())
     }
@@ -149,6 +156,7 @@ fn rings(triangles: impl IntoIterator<Item = [usize; 3]>) -> Vec<Vec<usize>> {
     rings
 }
 
+/// The ring without corners that only divide a straight edge or end a needle.
 fn straightened(ring: &[Corner]) -> Vec<Corner> {
     let mut ring = ring.to_vec();
     loop {
@@ -169,17 +177,17 @@ fn straightened(ring: &[Corner]) -> Vec<Corner> {
 
 fn is_needless([before, corner, after]: [&Corner; 3]) -> bool {
     let (to, from) = (corner.place - before.place, after.place - corner.place);
+    let turn = turn(before.place, corner.place, after.place);
     if to.dot(from) <= 0.0 {
-        // Back along the same line.
-        return turn(before.place, corner.place, after.place) == 0.0;
+        return 0.0 <= turn && turn <= NEEDLE * to.length().max(from.length());
     }
-    let chord = after.place - before.place;
-    let reach = if corner.is_exact {
-        0.0
+    let chord = after.place.distance(before.place);
+    let [reach, reach_outside] = if corner.is_exact {
+        [FLAT, 0.0]
     } else {
-        STRAIGHT * chord.length()
+        [STRAIGHT; 2]
     };
-    turn(before.place, corner.place, after.place).abs() <= reach
+    -reach_outside * chord <= turn && turn <= reach * chord
 }
 
 /// How far a corner moves for its edges to move inward, to their left, by 1.
@@ -190,7 +198,7 @@ fn inward([before, corner, after]: [DVec2; 3]) -> DVec2 {
     if reach.is_finite() {
         reach.clamp_length_max(SHARPEST)
     } else {
-        // A spike: back along it.
+        // Back along a needle.
         (before - corner).normalize_or_zero() * SHARPEST
     }
 }

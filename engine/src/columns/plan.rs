@@ -11,11 +11,16 @@ use super::facets::{Facet, Facets};
 use super::outline::Corner;
 use crate::{MeshDefect, TriangleMesh};
 
-/// Most corners of a plan: some hundred megabytes of work, ten times the largest real model seen.
-const MOST_CORNERS: usize = 200_000;
+/// Most corners, and most crossings, of a plan: ten times those of the most intricate building of a
+/// real city, and about a second of work.
+const MOST_CORNERS: usize = 50_000;
 
 /// A corner of the mesh this close to a level is on it, metres.
 pub const ON_LEVEL: f64 = 1e-6;
+
+/// A crossing this close to a corner is that corner, metres, or this share of the greatest
+/// coordinate: rounding alone must not make corners, since lines between them cross again.
+const SAME_CORNER: [f64; 2] = [1e-7, 1e-13];
 
 type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
 type Handle = FixedVertexHandle;
@@ -35,6 +40,12 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// The numbers of an edge's ends.
+    pub fn edge(&self, triangle: usize, edge: usize) -> [usize; 2] {
+        let corners = self.triangles[triangle];
+        [corners[edge % 3], corners[(edge + 1) % 3]]
+    }
+
     pub fn corner(&self, number: usize) -> Corner {
         Corner {
             number,
@@ -61,17 +72,31 @@ struct Draft {
     corners: Vec<Handle>,
     /// Corners on each line between two others, and how far along each is.
     lines: HashMap<[Handle; 2], Vec<(f64, Handle)>>,
+    /// Corners by the square of a grid in which they are.
+    squares: HashMap<[i64; 2], Vec<Handle>>,
     /// Contours.
     contours: Vec<[Handle; 2]>,
+    /// Crossings so far.
+    crossings: usize,
+    /// Distance within which a crossing is at a corner.
+    same_corner: f64,
 }
 
 impl Draft {
     fn new(mesh: &TriangleMesh) -> Result<Self, MeshDefect> {
+        let coordinates = mesh
+            .vertices
+            .iter()
+            .map(|v| v.truncate().abs().max_element());
+        let greatest = coordinates.fold(0.0, f64::max);
         let mut draft = Self {
             cdt: Cdt::new(),
             corners: Vec::new(),
             lines: HashMap::new(),
+            squares: HashMap::new(),
             contours: Vec::new(),
+            crossings: 0,
+            same_corner: SAME_CORNER[0].max(SAME_CORNER[1] * greatest),
         };
         for vertex in &mesh.vertices {
             let corner = draft.add_corner(vertex.truncate())?;
@@ -94,8 +119,16 @@ impl Draft {
                 x
             }
         });
+        let count = self.cdt.num_vertices();
         let inserted = self.cdt.insert(Point2::new(flushed.x, flushed.y));
-        inserted.map_err(|_| MeshDefect::NotFinite)
+        let corner = inserted.map_err(|_| MeshDefect::NotFinite)?;
+        if self.cdt.num_vertices() > count {
+            self.squares
+                .entry(self.square(place))
+                .or_default()
+                .push(corner);
+        }
+        Ok(corner)
     }
 
     /// Notes the lines of all facets and their contours.
@@ -147,7 +180,7 @@ impl Draft {
             }
             let along = (level - from.z) / (to.z - from.z);
             let place = from.truncate().lerp(to.truncate(), along);
-            let crossing = self.add_corner(place)?;
+            let crossing = self.add_computed(place)?;
             crossings.insert(([a, b], number), crossing);
             ends.push(crossing);
             let line = [a, b].map(|number| self.corners[number as usize]);
@@ -186,14 +219,13 @@ impl Draft {
     /// Adds a line, and a corner wherever it crosses another.
     fn add_line(&mut self, line: [Handle; 2]) -> Result<(), MeshDefect> {
         let mut left = vec![line];
-        let mut steps = 0;
         while let Some([from, to]) = left.pop() {
             if from == to || !self.cdt.try_add_constraint(from, to).is_empty() {
                 continue;
             }
             // Rounding may move lines across each other again and again.
-            steps += 1;
-            if steps > MOST_CORNERS {
+            self.crossings += 1;
+            if self.crossings > MOST_CORNERS {
                 return Err(MeshDefect::TooIntricate {
                     limit: MOST_CORNERS,
                 });
@@ -206,8 +238,8 @@ impl Draft {
                 continue;
             };
             let (edge, [a, b]) = (crossed.fix(), crossed.vertices().map(|v| v.fix()));
-            let place = crossing([from, to, a, b].map(|corner| self.place(corner)));
-            let corner = self.add_corner(place)?;
+            let ends = [from, to, a, b].map(|corner| self.place(corner));
+            let corner = self.add_computed(crossing(ends))?;
             if corner != a && corner != b {
                 self.cdt.remove_constraint_edge(edge);
                 left.extend([[a, corner], [corner, b]]);
@@ -219,6 +251,25 @@ impl Draft {
             }
         }
         Ok(())
+    }
+
+    /// The corner at a computed place: a new one, or one that is there.
+    fn add_computed(&mut self, place: DVec2) -> Result<Handle, MeshDefect> {
+        let square = self.square(place);
+        let around = (-1..=1).flat_map(|x| (-1..=1).map(move |y| [x, y]));
+        let mut near = around
+            .filter_map(|[x, y]| self.squares.get(&[square[0] + x, square[1] + y]))
+            .flatten();
+        let same = near.find(|&&corner| self.place(corner).distance(place) <= self.same_corner);
+        same.copied().map_or_else(|| self.add_corner(place), Ok)
+    }
+
+    /// The square of a place in a grid as wide as corners are apart. Far away they are as wide as
+    /// numbers can tell.
+    fn square(&self, place: DVec2) -> [i64; 2] {
+        // At least half the range of whole numbers is left for neighbours.
+        let number = |x: f64| (x / self.same_corner).clamp(-4e18, 4e18) as i64;
+        [number(place.x), number(place.y)]
     }
 
     fn place(&self, corner: Handle) -> DVec2 {

@@ -91,6 +91,16 @@ impl ShadowRegion {
         doubled / 2.0
     }
 
+    /// Whether `other` lies in this region, up to rounding.
+    pub(crate) fn contains(&self, other: &Self) -> bool {
+        let shift = other.origin - self.origin;
+        other.sides.iter().all(|point| {
+            let corner = point.corner + shift;
+            let mut sides = self.sides.iter();
+            sides.all(|side| side.normal.dot(corner) <= side.offset)
+        })
+    }
+
     /// The longest interval along `axis` (0: x, 1: y) such that its rectangle with the lane
     /// `low..high` on the other axis is inside the region; `None` when there is none.
     #[must_use]
@@ -171,6 +181,7 @@ mod tests {
         assert_eq!(cut.strip(1, 103.0, 105.0), None);
         let half = cut.bounded(DVec2::X, 1.0).expect("a quarter is left");
         assert_eq!((half.area(), half.sides.len()), (4.0, 4));
+        assert!(square().contains(&half) && !half.contains(&square()));
     }
 
     #[test]

@@ -43,6 +43,12 @@ const LEAST_GAIN: f64 = 1e-5;
 /// heights for each connected piece.
 const LEVEL_GAIN: f64 = 0.5;
 
+/// Share of the space under its roofs that a solid fills at least, for the worth of levels.
+const LEAST_FILLED: f64 = 1e-2;
+
+/// How much more than that a level must add where the plan turns out too intricate.
+const COARSENESS: [f64; 4] = [1.0, 16.0, 256.0, 4096.0];
+
 /// The columns of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolidColumns {
@@ -74,34 +80,88 @@ pub fn solid_columns(
         return Err(MeshDefect::NotFinite);
     }
     let facets = Facets::new(mesh);
-    let least_gain = LEVEL_GAIN * options.least_gain.max(LEAST_GAIN) * mesh.signed_volume().abs();
-    let levels = levels::levels(&facets, [envelope.min.z, envelope.max.z], least_gain);
-    let plan = Plan::new(mesh, &facets, &levels)?;
-    let stretches = stacks(&plan, &facets, &levels)?;
+    let heights = [envelope.min.z, envelope.max.z];
+    let least_gain = options.least_gain.max(LEAST_GAIN);
+    let view = View::new(mesh, &facets, heights, least_gain)?;
+    let volume: f64 = view.stretches.iter().map(|stretch| stretch.volume).sum();
     let mut search = Search {
-        plan: &plan,
-        levels: &levels,
+        view: &view,
         lowest: envelope.min.z,
         certificate: Certificate::new(&facets),
-        volume: stretches.iter().map(|stretch| stretch.volume).sum(),
+        volume,
         covered: 0.0,
         columns: Vec::new(),
     };
-    search.run(stretches, options);
-    if search.columns.is_empty() && options.most > 0 || search.volume <= 0.0 {
+    search.run(options, volume * least_gain);
+    if search.columns.is_empty() {
+        // Of very many parts each may be less than is asked.
+        search.run(options, volume * LEAST_GAIN);
+    }
+    if search.columns.is_empty() && options.most > 0 || volume <= 0.0 {
         return Err(why_no_seed(mesh, &envelope));
     }
     Ok(SolidColumns {
-        share: search.covered / search.volume,
-        volume: search.volume,
+        share: search.covered / volume,
+        volume,
         columns: search.columns,
     })
 }
 
+/// A mesh seen from above.
+struct View {
+    levels: Vec<f64>,
+    plan: Plan,
+    stretches: Vec<Stretch>,
+}
+
+impl View {
+    /// With as many levels as pay, or fewer where that would be too intricate.
+    fn new(
+        mesh: &TriangleMesh,
+        facets: &Facets,
+        heights: [f64; 2],
+        least_gain: f64,
+    ) -> Result<Self, MeshDefect> {
+        // Parts that are inside out may leave nothing of the signed volume.
+        let [low, high] = heights;
+        let roofs = facets.list.iter().filter(|facet| facet.faces == 1);
+        let under_roofs = (high - low) * roofs.map(|facet| facet.area).sum::<f64>();
+        let volume = mesh.signed_volume().max(LEAST_FILLED * under_roofs);
+        let least_gain = LEVEL_GAIN * least_gain * volume;
+        let mut last = 0;
+        let mut result = Err(MeshDefect::ZeroVolume);
+        for coarseness in COARSENESS {
+            let levels = levels::levels(facets, heights, coarseness * least_gain);
+            if levels.len() == last {
+                continue;
+            }
+            last = levels.len();
+            result = Self::at_levels(mesh, facets, levels);
+            if !matches!(result, Err(MeshDefect::TooIntricate { .. })) {
+                break;
+            }
+        }
+        result
+    }
+
+    fn at_levels(
+        mesh: &TriangleMesh,
+        facets: &Facets,
+        levels: Vec<f64>,
+    ) -> Result<Self, MeshDefect> {
+        let plan = Plan::new(mesh, facets, &levels)?;
+        let stretches = stacks(&plan, facets, &levels)?;
+        Ok(Self {
+            levels,
+            plan,
+            stretches,
+        })
+    }
+}
+
 /// The search in one mesh.
 struct Search<'a> {
-    plan: &'a Plan,
-    levels: &'a [f64],
+    view: &'a View,
     lowest: f64,
     certificate: Certificate<'a>,
     volume: f64,
@@ -112,8 +172,8 @@ struct Search<'a> {
 impl Search<'_> {
     /// Fills stretches from the foot up, then those that it does not reach from the bottom that
     /// promises most, until enough is covered.
-    fn run(&mut self, mut left: Vec<Stretch>, options: &ColumnOptions) {
-        let least_gain = self.volume * options.least_gain.max(LEAST_GAIN);
+    fn run(&mut self, options: &ColumnOptions, least_gain: f64) {
+        let mut left = self.view.stretches.clone();
         let mut bottom = Some(0);
         while let Some(from) = bottom
             && self.columns.len() < options.most
@@ -124,7 +184,7 @@ impl Search<'_> {
                 .partition(|stretch| stretch.from <= from && from < stretch.to);
             self.fill(from, &reached, least_gain, options);
             let below = reached.iter().filter(|stretch| stretch.from < from);
-            others.extend(below.map(|stretch| stretch.up_to(from, self.levels)));
+            others.extend(below.map(|stretch| stretch.up_to(from, &self.view.levels)));
             left = others;
             bottom = self.best_bottom(&left, least_gain);
         }
@@ -132,11 +192,11 @@ impl Search<'_> {
 
     /// The level from which most of the stretches' volume is reached.
     fn best_bottom(&self, left: &[Stretch], least_gain: f64) -> Option<usize> {
-        let mut reached: Vec<f64> = vec![0.0; self.levels.len()];
+        let mut reached: Vec<f64> = vec![0.0; self.view.levels.len()];
         for stretch in left {
-            let inside = reached.iter_mut().zip(self.levels).take(stretch.to);
+            let inside = reached.iter_mut().zip(&self.view.levels).take(stretch.to);
             for (volume, level) in inside.skip(stretch.from) {
-                *volume += stretch.area * (self.levels[stretch.to] - level);
+                *volume += stretch.area * (self.view.levels[stretch.to] - level);
             }
         }
         let (best, volume) = reached
@@ -153,8 +213,8 @@ impl Search<'_> {
             least_gain: least,
             most: options.most.saturating_sub(self.columns.len()),
         };
-        let bottom = self.levels[from];
-        let staircase = Staircase::new(self.plan, self.levels, from, reached);
+        let bottom = self.view.levels[from];
+        let staircase = Staircase::new(&self.view.plan, &self.view.levels, from, reached);
         let steps = staircase.choose(&goal);
         // Up to where each step and those that hold it really reach.
         let mut tops: Vec<f64> = Vec::with_capacity(steps.len());
@@ -162,8 +222,8 @@ impl Search<'_> {
             let below = step.below.map_or(bottom, |below| tops[below]);
             let triangles = staircase.triangles(step.piece);
             let mut top = below;
-            let heights = [bottom, self.levels[step.level]];
-            for prism in prisms(self.plan, &triangles, heights, &mut self.certificate) {
+            let heights = [bottom, self.view.levels[step.level]];
+            for prism in prisms(&self.view.plan, &triangles, heights, &mut self.certificate) {
                 if self.columns.len() == options.most {
                     return;
                 }

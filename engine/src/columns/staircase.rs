@@ -125,6 +125,8 @@ impl<'a> Staircase<'a> {
     pub fn choose(&self, goal: &Goal) -> Vec<Step> {
         let mut chosen: Vec<Step> = Vec::new();
         let mut volume = 0.0;
+        // Of pieces that are alike there may be too many at one price and none at the next.
+        let mut overfull: Vec<Step> = Vec::new();
         // The price is at least the gain that is asked, so that none adds less.
         let (mut low, mut high) = (goal.least_gain, self.most_volume().max(goal.least_gain));
         let mut price = low;
@@ -140,6 +142,8 @@ impl<'a> Staircase<'a> {
             };
             if is_few && is_better {
                 (chosen, volume) = (steps, covered);
+            } else if !is_few {
+                overfull = steps;
             }
             if is_few && !is_enough {
                 high = price;
@@ -150,6 +154,10 @@ impl<'a> Staircase<'a> {
                 break;
             }
             price = (low * high).sqrt();
+        }
+        overfull.truncate(goal.most);
+        if self.volume(&overfull) > volume {
+            return overfull;
         }
         chosen
     }

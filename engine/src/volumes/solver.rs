@@ -108,7 +108,7 @@ impl VolumeSolver {
             if cancelled() {
                 return None;
             }
-            let shadows = self.shadows(occludee, envelope, block);
+            let shadows = without_contained(self.shadows(occludee, envelope, block));
             let (axis, cover) = self.best_cover(block, &shadows, &cancelled);
             found.extend(cover.pieces.iter().filter_map(|piece| {
                 Some(OcclusionVolume {
@@ -188,4 +188,18 @@ impl VolumeSolver {
             (1, y)
         }
     }
+}
+
+/// The shadows that lie in no single other one: a narrow piece of a feature often hides no more
+/// than a wide one does, and its shadow would be tried in every lane.
+fn without_contained(mut shadows: Vec<Shadow>) -> Vec<Shadow> {
+    shadows.sort_by(|a, b| b.region.area().total_cmp(&a.region.area()));
+    let mut kept: Vec<Shadow> = Vec::with_capacity(shadows.len());
+    for shadow in shadows {
+        let contains = |other: &Shadow| other.region.contains(&shadow.region);
+        if !kept.iter().any(contains) {
+            kept.push(shadow);
+        }
+    }
+    kept
 }

@@ -5,6 +5,8 @@ mod certificate;
 mod growth;
 mod silhouette;
 
+use std::cmp::Ordering;
+
 use border::Border;
 use certificate::lies_inside;
 use glam::DVec2;
@@ -63,8 +65,27 @@ impl Default for ConvexPieceOptions {
 /// within another never is.
 #[must_use]
 pub fn convex_pieces(columns: &[SolidColumn], options: &ConvexPieceOptions) -> Vec<ConvexPrism> {
-    let found: Vec<ConvexPrism> = columns.iter().flat_map(pieces_of_column).collect();
+    let mut columns: Vec<&SolidColumn> = columns.iter().collect();
+    columns.sort_by(|a, b| order(a, b));
+    let found: Vec<ConvexPrism> = columns.into_iter().flat_map(pieces_of_column).collect();
     silhouette::most_useful(found, options)
+}
+
+/// An order that depends on nothing but the columns, so that rows of a table give the same pieces in
+/// whatever order they come.
+fn order(a: &SolidColumn, b: &SolidColumn) -> Ordering {
+    let corners = |column: &SolidColumn| {
+        let rings =
+            std::iter::once(column.footprint.exterior()).chain(column.footprint.interiors());
+        rings
+            .flat_map(|ring| ring.0.iter().flat_map(|c| [c.x, c.y]))
+            .collect::<Vec<f64>>()
+    };
+    let by_height = a.bottom.total_cmp(&b.bottom).then(a.top.total_cmp(&b.top));
+    by_height.then_with(|| {
+        let (a, b) = (corners(a), corners(b));
+        a.partial_cmp(&b).unwrap_or(Ordering::Equal)
+    })
 }
 
 /// Convex pieces that together cover most of one column.

@@ -37,6 +37,20 @@ const NO_CORNER: f64 = 1e-3;
 const SAME_VERTEX: f64 = 1e-8;
 
 /// How many pieces to look for.
+///
+/// Every piece costs time wherever volumes are sought, and saves volumes: a larger shadow does the
+/// work of several. On the Delft sample (1,115 buildings, a range of 500 m, the usual worth) inner
+/// envelopes hide 30.0 % of all pairs of eye and feature by 1.17 million volumes. With the least
+/// share below and at most
+///
+/// | pieces | in all | hidden | volumes | time |
+/// | --- | --- | --- | --- | --- |
+/// | 1 | 1,106 | 54.9 % | 1,463,000 | 0.54 |
+/// | 2 | 1,919 | 61.8 % | 1,382,000 | 0.65 |
+/// | 4 | 3,076 | 65.0 % | 1,349,000 | 0.92 |
+/// | 6 | 3,757 | 65.8 % | 1,334,000 | 1 |
+///
+/// and a least share of 0.02 gives a fifth more pieces, which hide 0.1 % more at best.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConvexPieceOptions {
     /// Pieces of one feature at the most.
@@ -49,7 +63,7 @@ impl Default for ConvexPieceOptions {
     fn default() -> Self {
         Self {
             most: 6,
-            least_share: 0.02,
+            least_share: 0.05,
         }
     }
 }

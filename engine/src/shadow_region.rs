@@ -2,76 +2,66 @@
 
 use glam::DVec2;
 
-/// Where one side of a region begins, going anticlockwise, and the half-plane
-/// `normal · p <= offset` that ends there.
+use crate::convex_polygon::{area, clipped};
+
+/// A half-plane is of no use to a region that stays this far inside it, metres: more than the
+/// corners of a region are off, even where lines cross at an angle of a billionth.
+const IDLE: f64 = 1e-3;
+
+/// Where `normal · p <= offset`.
 #[derive(Clone, Copy, Debug)]
-struct Side {
-    corner: DVec2,
+struct HalfPlane {
     normal: DVec2,
     offset: f64,
 }
 
 /// A convex polygon of the plan: an axis-aligned rectangle cut by half-planes.
 ///
+/// The half-planes are what counts. The corners are rounded, so they only tell how large the region
+/// is, and which half-planes are clear of it.
+///
 /// Coordinates inside are relative to an origin near the occluder, so that differences keep
 /// their digits in frames such as 85,000 / 447,000; the methods take and give absolute metres.
 #[derive(Clone, Debug)]
 pub struct ShadowRegion {
     origin: DVec2,
-    sides: Vec<Side>,
+    half_planes: Vec<HalfPlane>,
+    corners: Vec<DVec2>,
 }
 
 impl ShadowRegion {
     /// All of `window`, two absolute corners.
     pub(crate) fn new(origin: DVec2, window: [DVec2; 2]) -> Self {
         let [min, max] = window.map(|corner| corner - origin);
-        let side = |x, y, normal, offset| Side {
-            corner: DVec2::new(x, y),
-            normal,
-            offset,
-        };
+        let half_plane = |normal, offset| HalfPlane { normal, offset };
         Self {
             origin,
-            sides: vec![
-                side(min.x, min.y, DVec2::NEG_Y, -min.y),
-                side(max.x, min.y, DVec2::X, max.x),
-                side(max.x, max.y, DVec2::Y, max.y),
-                side(min.x, max.y, DVec2::NEG_X, -min.x),
+            half_planes: vec![
+                half_plane(DVec2::NEG_Y, -min.y),
+                half_plane(DVec2::X, max.x),
+                half_plane(DVec2::Y, max.y),
+                half_plane(DVec2::NEG_X, -min.x),
             ],
+            corners: vec![min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)],
         }
     }
 
     /// Keeps the half-plane `normal · p <= offset` (relative); `None` when that leaves no area.
     pub(crate) fn bounded(mut self, normal: DVec2, offset: f64) -> Option<Self> {
-        let depth = |side: &Side| offset - normal.dot(side.corner);
-        if !self.sides.iter().any(|side| depth(side) > 0.0) {
-            return None;
-        }
-        // A line cuts a convex polygon once on the way out and once on the way in.
-        let count = self.sides.len();
-        let outside = |sides: &[Side], i: usize| depth(&sides[i % count]) < 0.0;
-        let leaves = |i: &usize| !outside(&self.sides, *i) && outside(&self.sides, i + 1);
-        let Some(leaving) = (0..count).find(leaves) else {
-            return Some(self);
-        };
-        self.sides.rotate_left(leaving);
-        let entering = (1..count).find(|i| !outside(&self.sides, i + 1))?;
-        let crossing = |from: &Side, to: &Side| {
-            let (a, b) = (depth(from), depth(to));
-            from.corner + (to.corner - from.corner) * (a / (a - b))
-        };
-        let (last, after) = (self.sides[entering], self.sides[(entering + 1) % count]);
-        let cut = Side {
-            corner: crossing(&self.sides[0], &self.sides[1]),
-            normal,
-            offset,
-        };
-        let rest = Side {
-            corner: crossing(&last, &after),
-            ..last
-        };
-        self.sides.splice(1..=entering, [cut, rest]);
-        Some(self)
+        self.corners = clipped(&self.corners, normal, offset);
+        self.half_planes.push(HalfPlane { normal, offset });
+        (self.area() > 0.0).then_some(self)
+    }
+
+    /// The same region without the half-planes that are clear of it.
+    pub(crate) fn without_idle(mut self) -> Self {
+        let corners = &self.corners;
+        self.half_planes.retain(|half_plane| {
+            let clearance = IDLE * half_plane.normal.length();
+            let depth = |corner: &DVec2| half_plane.offset - half_plane.normal.dot(*corner);
+            corners.iter().any(|corner| depth(corner) <= clearance)
+        });
+        self
     }
 
     /// The enclosing rectangle: the least and the greatest corner, absolute metres.
@@ -84,20 +74,15 @@ impl ShadowRegion {
     /// Square metres.
     #[must_use]
     pub fn area(&self) -> f64 {
-        let corner = |i: usize| self.sides[i % self.sides.len()].corner;
-        let doubled: f64 = (0..self.sides.len())
-            .map(|i| corner(i).perp_dot(corner(i + 1)))
-            .sum();
-        doubled / 2.0
+        area(&self.corners)
     }
 
     /// Whether `other` lies in this region, up to rounding.
     pub(crate) fn contains(&self, other: &Self) -> bool {
         let shift = other.origin - self.origin;
-        other.sides.iter().all(|point| {
-            let corner = point.corner + shift;
-            let mut sides = self.sides.iter();
-            sides.all(|side| side.normal.dot(corner) <= side.offset)
+        other.corners.iter().all(|&corner| {
+            let holds = |h: &HalfPlane| h.normal.dot(corner + shift) <= h.offset;
+            self.half_planes.iter().all(holds)
         })
     }
 
@@ -127,14 +112,14 @@ impl ShadowRegion {
 
     /// Least and greatest coordinate on an axis (relative).
     fn extent(&self, axis: usize) -> [f64; 2] {
-        self.sides
+        self.corners
             .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], side| {
-                [low.min(side.corner[axis]), high.max(side.corner[axis])]
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], corner| {
+                [low.min(corner[axis]), high.max(corner[axis])]
             })
     }
 
-    /// Clips the line along `axis` by each side, the lane's ends taken by `worst`: the greater
+    /// Clips the line along `axis` by each half-plane, the lane's ends taken by `worst`: the greater
     /// demand keeps the whole lane inside, the lesser one any point of it.
     fn interval(
         &self,
@@ -143,7 +128,7 @@ impl ShadowRegion {
         worst: fn(f64, f64) -> f64,
     ) -> Option<[f64; 2]> {
         let (mut start, mut end) = (f64::NEG_INFINITY, f64::INFINITY);
-        for Side { normal, offset, .. } in &self.sides {
+        for HalfPlane { normal, offset } in &self.half_planes {
             let across = normal[1 - axis];
             let rest = offset - worst(across * lane[0], across * lane[1]);
             let slope = normal[axis];
@@ -163,6 +148,7 @@ impl ShadowRegion {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     fn square() -> ShadowRegion {
         ShadowRegion::new(
@@ -180,7 +166,10 @@ mod tests {
         assert_eq!(cut.reach(0, 103.0, 104.0), Some([100.0, 103.0]));
         assert_eq!(cut.strip(1, 103.0, 105.0), None);
         let half = cut.bounded(DVec2::X, 1.0).expect("a quarter is left");
-        assert_eq!((half.area(), half.sides.len()), (4.0, 4));
+        assert_eq!(
+            (half.area(), half.clone().without_idle().half_planes.len()),
+            (4.0, 4)
+        );
         assert!(square().contains(&half) && !half.contains(&square()));
     }
 
@@ -190,5 +179,40 @@ mod tests {
         assert!(square().bounded(DVec2::ONE, 0.0).is_none());
         let whole = square().bounded(DVec2::X, 4.0).expect("all is left");
         assert_eq!(whole.area(), 16.0);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+        #[test]
+        fn strips_keep_to_every_half_plane(
+            touch in prop::array::uniform2(-1e2..1e2f64),
+            turns in prop::collection::vec((-3.2..3.2f64, 1e-3..2e2f64), 1..12),
+            windows in prop::array::uniform4(1.0..3e2f64),
+            lanes in prop::collection::vec((-2e2..2e2f64, 0.5..20.0f64), 8),
+        ) {
+            // Lines through one point, some nearly the same: rounding puts it on either side.
+            let touch = DVec2::from(touch);
+            let half_planes: Vec<HalfPlane> = turns.iter().map(|&(turn, length)| {
+                let normal = DVec2::from_angle(turn) * length;
+                HalfPlane { normal, offset: normal.dot(touch) }
+            }).collect();
+            let [left, below, right, above] = windows;
+            let window = [-DVec2::new(left, below), DVec2::new(right, above)];
+            let region = half_planes.iter().try_fold(
+                ShadowRegion::new(DVec2::ZERO, window),
+                |region, h| region.bounded(h.normal, h.offset),
+            );
+            let Some(region) = region.map(ShadowRegion::without_idle) else { return Ok(()) };
+            for (axis, (low, width)) in [0, 1].into_iter().flat_map(|a| lanes.iter().map(move |l| (a, *l))) {
+                let Some(span) = region.strip(axis, low, low + width) else { continue };
+                for (along, across) in [0, 1, 2, 3].map(|i| (span[i & 1], low + width * (i >> 1) as f64)) {
+                    let corner = if axis == 0 { DVec2::new(along, across) } else { DVec2::new(across, along) };
+                    for h in &half_planes {
+                        let beyond = (h.normal.dot(corner) - h.offset) / h.normal.length();
+                        prop_assert!(beyond <= 1e-9, "{beyond} beyond {h:?} at {corner}");
+                    }
+                }
+            }
+        }
     }
 }

@@ -86,7 +86,7 @@ impl ShadowCaster {
                 region = region.bounded(normal, offset)?;
             }
         }
-        Some(region)
+        Some(region.without_idle())
     }
 
     /// How far along the normal of `side` the shadow of the whole occludee goes at most, because

@@ -82,10 +82,7 @@ pub fn stacks(plan: &Plan, facets: &Facets, levels: &[f64]) -> Result<Vec<Stretc
         });
         stacks.push(Some(found.collect()));
     }
-    let slivers = (0..stacks.len()).filter(|&triangle| stacks[triangle].is_none());
-    let slivers: Vec<Stretch> = slivers
-        .flat_map(|sliver| in_sliver(plan, sliver, &stacks))
-        .collect();
+    let slivers = in_slivers(plan, &stacks);
     Ok(stacks
         .into_iter()
         .flatten()
@@ -94,31 +91,57 @@ pub fn stacks(plan: &Plan, facets: &Facets, levels: &[f64]) -> Result<Vec<Stretc
         .collect())
 }
 
-/// The stretches of a sliver: what is solid on all its sides, so that it neither divides a region
-/// nor adds a rim to one.
-fn in_sliver(plan: &Plan, sliver: usize, stacks: &[Stack]) -> Vec<Stretch> {
-    let sides = plan.neighbours[sliver].map(|side| side.map(|side| &stacks[side]));
-    if sides.contains(&None) {
-        return Vec::new();
+/// The stretches of slivers: what is solid all round those that hang together, so that they neither
+/// divide a region nor add a rim to one.
+fn in_slivers(plan: &Plan, stacks: &[Stack]) -> Vec<Stretch> {
+    let mut stretches = Vec::new();
+    let mut is_taken = vec![false; stacks.len()];
+    for first in (0..stacks.len()).filter(|&triangle| stacks[triangle].is_none()) {
+        let mut slivers = Vec::new();
+        let mut sides: Vec<&[Stretch]> = Vec::new();
+        let mut left = vec![first];
+        while let Some(sliver) = left.pop() {
+            if std::mem::replace(&mut is_taken[sliver], true) {
+                continue;
+            }
+            slivers.push(sliver);
+            for side in plan.neighbours[sliver] {
+                match side.map(|side| (side, &stacks[side])) {
+                    Some((side, None)) => left.push(side),
+                    Some((_, Some(stack))) => sides.push(stack),
+                    None => sides.push(&[]),
+                }
+            }
+        }
+        let common = common(&sides);
+        for triangle in slivers {
+            stretches.extend(common.iter().map(|stretch| Stretch {
+                triangle,
+                area: 0.0,
+                volume: 0.0,
+                ..*stretch
+            }));
+        }
     }
-    let mut known = sides.into_iter().flatten().flatten();
-    let first = known.next().cloned().unwrap_or_default();
-    let common = known.fold(first, |common, side| {
-        let pairs = common.iter().flat_map(|a| side.iter().map(move |b| (a, b)));
+    stretches
+}
+
+/// The stretches that are in all stacks.
+fn common(stacks: &[&[Stretch]]) -> Vec<Stretch> {
+    let Some((first, others)) = stacks.split_first() else {
+        return Vec::new();
+    };
+    others.iter().fold(first.to_vec(), |common, stack| {
+        let pairs = common
+            .iter()
+            .flat_map(|a| stack.iter().map(move |b| (a, b)));
         let both = pairs.map(|(a, b)| Stretch {
             from: a.from.max(b.from),
             to: a.to.min(b.to),
             ..*a
         });
         both.filter(|both| both.from < both.to).collect()
-    });
-    let inside = common.into_iter().map(|stretch| Stretch {
-        triangle: sliver,
-        area: 0.0,
-        volume: 0.0,
-        ..stretch
-    });
-    inside.collect()
+    })
 }
 
 fn layers_over(facets: &Facets, corners: [DVec2; 3], middle: DVec2) -> impl Iterator<Item = Layer> {

@@ -2,10 +2,12 @@
 
 use std::collections::HashMap;
 
+use glam::DVec3;
+
 use super::certificate::Certificate;
 use super::outline::{Corner, Outline};
+use crate::mesh::Net;
 use crate::predicates::turn;
-use crate::triangulate;
 
 /// Triangles that turn anticlockwise, exactly, and cover an outline once.
 pub struct Cells {
@@ -18,13 +20,22 @@ impl Cells {
     pub fn new(outline: &Outline, seams: &[[Corner; 2]]) -> Option<Self> {
         // A seam is a ring there and back.
         let seams = seams.iter().map(|seam| seam.to_vec());
-        let rings: Vec<Vec<Corner>> = outline.rings.iter().cloned().chain(seams).collect();
-        let places: Vec<_> = rings
-            .iter()
-            .map(|ring| ring.iter().map(|corner| corner.place.extend(0.0)).collect())
-            .collect();
-        let mut triangles = triangulate(&places).ok()?;
-        let corners = rings.concat();
+        let rings = outline.rings.iter().cloned().chain(seams);
+        let mut corners: Vec<Corner> = Vec::new();
+        let numbers = rings.map(|ring| {
+            let first = corners.len();
+            corners.extend(ring);
+            (first..corners.len()).collect()
+        });
+        let numbers: Vec<Vec<usize>> = numbers.collect();
+        let places: Vec<DVec3> = corners.iter().map(|c| c.place.extend(0.0)).collect();
+        // At the places themselves: near some other origin a corner could change sides.
+        let net = Net::new(
+            &numbers,
+            &places.iter().collect::<Vec<_>>(),
+            DVec3::truncate,
+        );
+        let mut triangles = net.and_then(Net::triangles).ok()?;
         let turn = |t: &[usize; 3]| {
             let [a, b, c] = t.map(|i| corners[i].place);
             turn(a, b, c)

@@ -158,13 +158,19 @@ fn rings(triangles: impl IntoIterator<Item = [usize; 3]>) -> Vec<Vec<usize>> {
 
 /// The ring without corners that only divide a straight edge or end a needle.
 fn straightened(ring: &[Corner]) -> Vec<Corner> {
-    let mut ring = ring.to_vec();
+    // Exact corners last, when they are seen against exact neighbours.
+    let computed = without(ring.to_vec(), |corner| !corner.is_exact);
+    without(computed, |_| true)
+}
+
+/// The ring without needless corners of a kind.
+fn without(mut ring: Vec<Corner>, kind: impl Fn(&Corner) -> bool) -> Vec<Corner> {
     loop {
         let count = ring.len();
         let mut kept: Vec<Corner> = Vec::with_capacity(count);
         for (i, &corner) in ring.iter().enumerate() {
             let before = kept.last().unwrap_or(&ring[count - 1]);
-            if !is_needless([before, &corner, &ring[(i + 1) % count]]) {
+            if !(kind(&corner) && is_needless([before, &corner, &ring[(i + 1) % count]])) {
                 kept.push(corner);
             }
         }

@@ -9,8 +9,14 @@ use crate::MeshDefect;
 /// Most facets above and below all triangles together.
 const MOST_LAYERS: usize = 4_000_000;
 
+/// A triangle narrower than this is made by rounding, metres: what is over it cannot be told.
+const SLIVER: f64 = 1e-7;
+
+/// The stretches over a triangle; `None` where they cannot be told.
+type Stack = Option<Vec<Stretch>>;
+
 /// A stretch of height over a triangle of the plan in which the mesh winds once or more.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
     /// The triangle.
     pub triangle: usize,
@@ -43,24 +49,28 @@ struct Layer {
     is_level: bool,
 }
 
-/// All stretches, in the order of their triangles, upwards.
+/// All stretches of each triangle, upwards.
 ///
 /// # Errors
 /// [`MeshDefect`] when there are too many layers.
 pub fn stacks(plan: &Plan, facets: &Facets, levels: &[f64]) -> Result<Vec<Stretch>, MeshDefect> {
-    let mut stretches = Vec::new();
+    let mut stacks: Vec<Stack> = Vec::with_capacity(plan.triangles.len());
     let mut seen = 0;
-    let mut layers = Vec::new();
     for (triangle, corners) in plan.triangles.iter().enumerate() {
         let corners = corners.map(|corner| plan.places[corner]);
+        let [ab, bc, ca] = [0, 1, 2].map(|i| corners[(i + 1) % 3] - corners[i]);
+        let area = ab.perp_dot(bc) / 2.0;
+        let longest = ab.length().max(bc.length()).max(ca.length());
+        if 2.0 * area < SLIVER * longest {
+            stacks.push(None);
+            continue;
+        }
         let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-        layers.clear();
-        layers.extend(layers_over(facets, corners, middle));
+        let mut layers: Vec<Layer> = layers_over(facets, corners, middle).collect();
         seen += layers.len();
         if seen > MOST_LAYERS {
             return Err(MeshDefect::TooIntricate { limit: MOST_LAYERS });
         }
-        let area = (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]) / 2.0;
         layers.sort_unstable_by(|a, b| a.middle.total_cmp(&b.middle));
         remove_inner_levels(&mut layers);
         let found = solid_between(&layers, levels).map(|(from, to, height)| Stretch {
@@ -70,9 +80,68 @@ pub fn stacks(plan: &Plan, facets: &Facets, levels: &[f64]) -> Result<Vec<Stretc
             to,
             volume: area * height,
         });
-        stretches.extend(found);
+        stacks.push(Some(found.collect()));
     }
-    Ok(stretches)
+    let slivers = in_slivers(plan, &stacks);
+    Ok(stacks
+        .into_iter()
+        .flatten()
+        .flatten()
+        .chain(slivers)
+        .collect())
+}
+
+/// The stretches of slivers: what is solid all round those that hang together, so that they neither
+/// divide a region nor add a rim to one.
+fn in_slivers(plan: &Plan, stacks: &[Stack]) -> Vec<Stretch> {
+    let mut stretches = Vec::new();
+    let mut is_taken = vec![false; stacks.len()];
+    for first in (0..stacks.len()).filter(|&triangle| stacks[triangle].is_none()) {
+        let mut slivers = Vec::new();
+        let mut sides: Vec<&[Stretch]> = Vec::new();
+        let mut left = vec![first];
+        while let Some(sliver) = left.pop() {
+            if std::mem::replace(&mut is_taken[sliver], true) {
+                continue;
+            }
+            slivers.push(sliver);
+            for side in plan.neighbours[sliver] {
+                match side.map(|side| (side, &stacks[side])) {
+                    Some((side, None)) => left.push(side),
+                    Some((_, Some(stack))) => sides.push(stack),
+                    None => sides.push(&[]),
+                }
+            }
+        }
+        let common = common(&sides);
+        for triangle in slivers {
+            stretches.extend(common.iter().map(|stretch| Stretch {
+                triangle,
+                area: 0.0,
+                volume: 0.0,
+                ..*stretch
+            }));
+        }
+    }
+    stretches
+}
+
+/// The stretches that are in all stacks.
+fn common(stacks: &[&[Stretch]]) -> Vec<Stretch> {
+    let Some((first, others)) = stacks.split_first() else {
+        return Vec::new();
+    };
+    others.iter().fold(first.to_vec(), |common, stack| {
+        let pairs = common
+            .iter()
+            .flat_map(|a| stack.iter().map(move |b| (a, b)));
+        let both = pairs.map(|(a, b)| Stretch {
+            from: a.from.max(b.from),
+            to: a.to.min(b.to),
+            ..*a
+        });
+        both.filter(|both| both.from < both.to).collect()
+    })
 }
 
 fn layers_over(facets: &Facets, corners: [DVec2; 3], middle: DVec2) -> impl Iterator<Item = Layer> {

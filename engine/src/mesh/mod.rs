@@ -20,5 +20,6 @@ pub use extrusion::{Extrusion, extruded};
 pub(crate) use inner_envelope::why_no_seed;
 pub use inner_envelope::{GROUND_TOLERANCE, InnerEnvelope, inner_envelope};
 pub use mesh_defect::MeshDefect;
+pub(crate) use net::Net;
 pub use triangle_mesh::{Closedness, TriangleMesh};
 pub use triangulate::{PolygonDefect, triangulate};

@@ -91,16 +91,18 @@ fn house() -> impl Strategy<Value = Triangles> {
                 prism(&[&u], 0.0, |p| z + roof * p.y / y)
             }
             _ => {
-                let hip = [
-                    [[0.0, 0.0], [x, 0.0], [x / 2.0, y / 2.0]],
-                    [[x, 0.0], [x, y], [x / 2.0, y / 2.0]],
-                    [[x, y], [0.0, y], [x / 2.0, y / 2.0]],
-                    [[0.0, y], [0.0, 0.0], [x / 2.0, y / 2.0]],
-                ];
-                let top = |p: DVec2| if p.x == x / 2.0 { z + roof } else { z };
-                hip.iter()
-                    .flat_map(|side| prism(&[side], 0.0, top))
-                    .collect()
+                let ring = rectangle([0.0; 2], [x, y]);
+                let apex = [x / 2.0, y / 2.0];
+                let slopes: Vec<_> = (0..4)
+                    .map(|i| vec![ring[i], ring[(i + 1) % 4], apex])
+                    .collect();
+                roofed(&slopes, |p| {
+                    if p == DVec2::from_array(apex) {
+                        z + roof
+                    } else {
+                        z
+                    }
+                })
             }
         };
         let turn = DMat3::from_rotation_z(turn);

@@ -65,13 +65,25 @@ pub fn gabled(length: f64, width: f64, eaves: f64, ridge: f64) -> Triangles {
         [0.0, width],
         [0.0, half],
     ];
-    // Both halves apart, so that the ridge is an edge.
-    let sides = [[0, 1, 2, 5], [5, 2, 3, 4]].map(|side| side.map(|i: usize| plan[i]));
-    let top = |p: DVec2| if p.y == half { ridge } else { eaves };
-    sides
-        .iter()
-        .flat_map(|side| prism(&[side], 0.0, top))
-        .collect()
+    let slopes = [[0, 1, 2, 5], [5, 2, 3, 4]].map(|slope| slope.map(|i: usize| plan[i]).to_vec());
+    roofed(&slopes, |p| if p.y == half { ridge } else { eaves })
+}
+
+/// A house from 0 up under the slopes of its roof, without walls between them.
+pub fn roofed(slopes: &[Vec<[f64; 2]>], top: impl Fn(DVec2) -> f64) -> Triangles {
+    let solids = slopes.iter().map(|slope| prism(&[slope], 0.0, &top));
+    let is_wall = |t: &[DVec3; 3]| (t[1] - t[0]).cross(t[2] - t[0]).z == 0.0;
+    let mut surface: Triangles = solids.flatten().filter(|t| !is_wall(t)).collect();
+    let edges = || {
+        let slopes = slopes.iter();
+        slopes.flat_map(|slope| (0..slope.len()).map(|i| (slope[i], slope[(i + 1) % slope.len()])))
+    };
+    for (a, b) in edges().filter(|&(a, b)| edges().all(|edge| edge != (b, a))) {
+        let [a, b] = [a, b].map(DVec2::from_array);
+        surface.push([a.extend(0.0), b.extend(0.0), b.extend(top(b))]);
+        surface.push([a.extend(0.0), b.extend(top(b)), a.extend(top(a))]);
+    }
+    surface
 }
 
 pub fn flipped(triangles: Triangles) -> Triangles {

@@ -55,11 +55,12 @@ FROM pg_proc
 WHERE pronamespace = 'occlusion'::regnamespace
   AND NOT (provolatile = 'i' AND proparallel = 's' AND proisstrict AND prolang = (SELECT oid FROM pg_language WHERE lanname = 'c'))
 ORDER BY proname, arguments;
--- None runs with the rights of somebody else; all in an SQL language fix the search path.
+-- None runs with the rights of somebody else; all in an SQL language fix the search path, or are bound already.
 SELECT count(*) = 0 AS t FROM pg_proc WHERE pronamespace = 'occlusion'::regnamespace AND prosecdef;
 SELECT proname FROM pg_proc
 WHERE pronamespace = 'occlusion'::regnamespace
   AND prolang <> (SELECT oid FROM pg_language WHERE lanname = 'c')
+  AND prosqlbody IS NULL -- bound when it was created
   AND proconfig IS DISTINCT FROM '{"search_path=pg_catalog, pg_temp"}'
 ORDER BY proname;
 

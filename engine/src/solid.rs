@@ -1,10 +1,11 @@
 //! [`Solid`], a feature's surface with what hides others in it.
 
-use geo::Polygon;
+use geo::{BoundingRect, Coord, Polygon};
+use glam::DVec3;
 
 use crate::{
-    ColumnOptions, InnerEnvelope, MeshDefect, PolygonDefect, SolidColumns, TriangleMesh, extruded,
-    inner_envelope, solid_columns,
+    Box3d, ColumnOptions, InnerEnvelope, MeshDefect, PolygonDefect, SolidColumn, SolidColumns,
+    TriangleMesh, extruded, inner_envelope, solid_columns,
 };
 
 /// A feature's surface with what hides others in it.
@@ -44,7 +45,8 @@ impl Solid {
         }
     }
 
-    /// Footprints raised from height `bottom` up to `top`, metres: a column each.
+    /// Footprints raised from height `bottom` up to `top`, metres: a column each. The simple form is
+    /// looked for only where it takes no search: in a single footprint that is a box.
     ///
     /// # Errors
     /// [`PolygonDefect`] as [`extruded`].
@@ -62,7 +64,7 @@ impl Solid {
         }
         let mesh = TriangleMesh::from_triangles(triangles);
         let hides = Hides {
-            inner: inner_envelope(&mesh).ok(),
+            inner: own_box(&columns),
             columns: SolidColumns {
                 columns,
                 share: 1.0,
@@ -75,6 +77,35 @@ impl Solid {
             hides: Ok(hides),
         })
     }
+}
+
+/// The box that a single column is, if it is one.
+fn own_box(columns: &[SolidColumn]) -> Option<InnerEnvelope> {
+    let [
+        SolidColumn {
+            footprint,
+            bottom,
+            top,
+            grounded,
+        },
+    ] = columns
+    else {
+        return None;
+    };
+    let rectangle = footprint.bounding_rect()?;
+    let (min, max) = (rectangle.min(), rectangle.max());
+    let corners = &footprint.exterior().0;
+    let at_corner = |c: &Coord| (c.x == min.x || c.x == max.x) && (c.y == min.y || c.y == max.y);
+    // A simple ring of four corners of the rectangle, the first repeated, is its border.
+    let is_box =
+        footprint.interiors().is_empty() && corners.len() == 5 && corners.iter().all(at_corner);
+    is_box.then(|| InnerEnvelope {
+        bounds: Box3d {
+            min: DVec3::new(min.x, min.y, *bottom),
+            max: DVec3::new(max.x, max.y, *top),
+        },
+        grounded: *grounded,
+    })
 }
 
 impl Hides {
@@ -94,5 +125,40 @@ impl Hides {
     pub fn is_grounded(&self) -> bool {
         self.inner.is_some_and(|inner| inner.grounded)
             || self.columns.columns.iter().any(|column| column.grounded)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use geo::polygon;
+
+    use super::*;
+
+    #[test]
+    fn a_raised_box_is_its_own_inner_envelope() {
+        let square = polygon![
+            (x: 85_000.1, y: 447_000.0), (x: 85_009.0, y: 447_000.0),
+            (x: 85_009.0, y: 447_007.3), (x: 85_000.1, y: 447_007.3),
+        ];
+        let solid = Solid::raised(std::slice::from_ref(&square), -0.5, 9.0).unwrap();
+        let hides = solid.hides.unwrap();
+        assert_eq!(hides.inner.map(|inner| inner.bounds), solid.mesh.envelope());
+        assert!(hides.is_grounded());
+        let searched = inner_envelope(&solid.mesh).map(|inner| inner.bounds).ok();
+        assert_eq!(hides.inner.map(|inner| inner.bounds), searched);
+    }
+
+    #[test]
+    fn other_footprints_are_columns_alone() {
+        let triangle = polygon![(x: 0.0, y: 0.0), (x: 9.0, y: 0.0), (x: 9.0, y: 7.0)];
+        let two = [
+            triangle.clone(),
+            polygon![(x: 20.0, y: 0.0), (x: 29.0, y: 0.0), (x: 29.0, y: 7.0)],
+        ];
+        for (footprints, columns) in [(&two[..1], 1), (&two[..], 2)] {
+            let hides = Solid::raised(footprints, 0.0, 3.0).unwrap().hides.unwrap();
+            assert_eq!((hides.inner, hides.columns.columns.len()), (None, columns));
+        }
+        assert!(Solid::raised(&[polygon![]], 0.0, 1.0).is_err());
     }
 }

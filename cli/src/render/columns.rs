@@ -43,3 +43,30 @@ fn column(column: &SolidColumn) -> PictureColumn {
         grounded: column.grounded,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use geo::{Coord, Rect, coord};
+
+    use super::*;
+
+    #[test]
+    fn columns_keep_their_courtyards() {
+        let square = |low: Coord, high: Coord| Rect::new(low, high).to_polygon();
+        let court = square(coord! { x: 4.0, y: 4.0 }, coord! { x: 5.0, y: 6.0 });
+        let mut footprint = square(coord! { x: 0.0, y: 0.0 }, coord! { x: 9.0, y: 9.0 });
+        footprint.interiors_push(court.exterior().clone());
+        let drawn = column(&SolidColumn {
+            footprint,
+            bottom: -1.0,
+            top: 7.5,
+            grounded: false,
+        });
+        assert_eq!(
+            (drawn.bottom, drawn.top, drawn.grounded),
+            (-1.0, 7.5, false)
+        );
+        assert_eq!(drawn.footprint.exterior.len(), 5);
+        assert!(drawn.footprint.holes[0].contains(&[5.0, 6.0]));
+    }
+}

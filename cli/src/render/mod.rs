@@ -20,7 +20,7 @@ const EXAMPLES: &str = "Examples:
   occlusion render delft --observer 85200,446800,1.7 --heading 45 --angle 90 -o street.png
   occlusion render delft --observer 85200,446800,1.7 --range 300 --plan -o plan.png
   occlusion render delft --observer 85200,446800,1.7 --heading 45 --angle 90 --above
-  occlusion render delft --observer 84900,446400,1.7 --range 70 --columns -o columns.png";
+  occlusion render delft --observer 84738,446786,1.7 --range 24 --columns -o columns.png";
 
 /// Draws what an observer sees
 ///

@@ -58,25 +58,27 @@ fn columns(scene: &PictureScene, eye: [f64; 3], ground: f64) -> Vec<SurfaceVerte
     vertices
 }
 
-/// The triangles of a column, each with its surface: the bottom is one with the walls.
+/// The triangles of a column, each with its surface: the bottom is one with the walls. Nothing of a
+/// column that cannot be drawn.
 fn faces(column: &PictureColumn, ground: f64, walls: u32, top: u32) -> Vec<(u32, [[f64; 3]; 3])> {
-    let foot = if column.grounded {
-        column.bottom
-    } else {
-        f64::MAX
-    };
-    let at = |[x, y]: [f64; 2], z: f64| stand([x, y, z], foot, ground);
     let (low, high) = (column.bottom, column.top);
-    let footprint = triangulate(&column.footprint);
-    let flats = footprint
+    let footprint = &column.footprint;
+    let rings = || std::iter::once(&footprint.exterior).chain(&footprint.holes);
+    let can_draw = |&[x, y]: &[f64; 2]| is_drawable(&[x, y, low]) && is_drawable(&[x, y, high]);
+    if !rings().flatten().all(can_draw) {
+        return Vec::new();
+    }
+    let foot = if column.grounded { low } else { f64::MAX };
+    let at = |[x, y]: [f64; 2], z: f64| stand([x, y, z], foot, ground);
+    let triangles = triangulate(footprint);
+    let flats = triangles
         .as_chunks()
         .0
         .iter()
         .flat_map(|triangle: &[_; 3]| {
             [(walls, low), (top, high)].map(|(surface, z)| (surface, triangle.map(|p| at(p, z))))
         });
-    let rings = std::iter::once(&column.footprint.exterior).chain(&column.footprint.holes);
-    let edges = rings.flat_map(|ring| {
+    let edges = rings().flat_map(|ring| {
         let ring = open(ring);
         ring.iter().zip(ring.iter().cycle().skip(1))
     });
@@ -84,8 +86,5 @@ fn faces(column: &PictureColumn, ground: f64, walls: u32, top: u32) -> Vec<(u32,
         let [a, b, c, d] = [at(a, low), at(b, low), at(b, high), at(a, high)];
         [(walls, [a, b, c]), (walls, [a, c, d])]
     });
-    flats
-        .chain(sides)
-        .filter(|(_, triangle)| triangle.iter().all(is_drawable))
-        .collect()
+    flats.chain(sides).collect()
 }

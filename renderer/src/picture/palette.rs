@@ -24,9 +24,9 @@ pub(crate) const RECTANGLE: Rgb = Rgb(122, 92, 168);
 pub(crate) const WHITE: Rgb = Rgb(255, 255, 255);
 
 /// The surface of a building that is looked into, and how much of it is seen.
-pub(crate) const GLASS: Rgb = Rgb(168, 212, 248);
-pub(crate) const GLASS_EDGE: Rgb = Rgb(28, 78, 138);
-pub(crate) const GLASS_ALPHA: f32 = 0.17;
+pub(crate) const GLASS: Rgb = Rgb(178, 218, 250);
+pub(crate) const GLASS_EDGE: Rgb = Rgb(244, 250, 255);
+pub(crate) const GLASS_ALPHA: f32 = 0.2;
 
 /// How strongly occlusion volumes tint what they cover.
 pub(crate) const RECTANGLE_ALPHA: f32 = 0.22;

@@ -370,10 +370,9 @@ fn column(half: f64, [bottom, top]: [f64; 2], grounded: bool) -> PictureColumn {
 
 /// Pixels of orange and of purple beside the legend.
 fn orange_and_purple(image: &Image) -> [usize; 2] {
-    let is_orange = |c| leans(c, 0);
     let is_purple = |[r, g, b]: [u8; 3]| r.min(b) > g.saturating_add(15) && r.abs_diff(b) < 25;
     let beside = || pixels(image).filter(|&(x, y, _)| x > 125 || y > 100);
-    let orange = beside().filter(|&(.., c)| is_orange(c)).count();
+    let orange = beside().filter(|&(.., c)| leans(c, 0)).count();
     [orange, beside().filter(|&(.., c)| is_purple(c)).count()]
 }
 

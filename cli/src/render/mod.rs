@@ -26,7 +26,8 @@ const EXAMPLES: &str = "Examples:
 ///
 /// Green: in the answer, and truly visible. Blue: in the answer, although hidden. Red: in the field
 /// of view, and left out of the answer as hidden. Grey: outside the field of view. With --columns,
-/// orange: the solid columns, which hide what is behind them, inside transparent buildings.
+/// orange: the solid columns, which hide what is behind them, inside transparent buildings; purple:
+/// those that are not grounded.
 #[derive(Args, Debug)]
 #[command(after_help = format!("{EXAMPLES}\n\n{EXIT_STATUS}"))]
 pub struct Render {

@@ -386,7 +386,6 @@ fn columns_are_seen_inside_glass() {
     let raised = looked_into(vec![column(6.0, [3.0, 9.0], false)]);
     let [orange, purple] = orange_and_purple(&raised);
     assert!(orange == 0 && purple > 2000, "{orange} {purple}");
-    // Glass beside the column tints the ground.
     let [glass, ground] = [[200, 250], [10, 290]].map(|[x, y]| rgb(&grounded, x, y));
     assert_eq!(glass, rgb(&empty, 200, 250));
     assert!(

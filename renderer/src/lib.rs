@@ -21,6 +21,7 @@ pub use device::Renderer;
 pub use error::Error;
 pub use item_buffer::ItemBuffer;
 pub use picture::{
-    Area, Image, Observer, PictureFeature, PictureScene, PlanView, Status, View, plan,
+    Area, Image, Observer, PictureColumn, PictureFeature, PictureScene, PlanView, Status, View,
+    plan,
 };
 pub use scene_mesh::SceneMesh;

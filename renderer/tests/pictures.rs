@@ -1,8 +1,8 @@
 //! Pictures: given pixels have given colours, and everything is where the scene says.
 
 use renderer::{
-    Area, Error, Image, Observer, PictureFeature, PictureScene, PlanView, Renderer, Status, View,
-    plan,
+    Area, Error, Image, Observer, PictureColumn, PictureFeature, PictureScene, PlanView, Renderer,
+    Status, View, plan,
 };
 use std::sync::LazyLock;
 
@@ -33,6 +33,7 @@ fn house(status: Status, low: [f64; 3], size: [f64; 3]) -> PictureFeature {
     PictureFeature {
         status,
         triangles: triangles.map(|t| t.map(corner)).collect(),
+        columns: vec![],
     }
 }
 
@@ -340,6 +341,80 @@ fn houses_cast_shadows_on_lit_ground() {
     // North is up; the sun stands in the south-east, so the shadow falls to the north-west.
     let (north_west, south_east) = (light(178, 170), light(222, 230));
     assert!(north_west + 90 < south_east, "{north_west} {south_east}");
+}
+
+/// A house of 20 x 20 x 12 m with these columns, seen from the south above.
+fn looked_into(columns: Vec<PictureColumn>) -> Image {
+    let low = [84_990.0, 446_990.0, 0.0];
+    let glass = house(Status::Outside, low, [20.0, 20.0, 12.0]);
+    let scene = PictureScene {
+        features: vec![PictureFeature { columns, ..glass }],
+        ..Default::default()
+    };
+    let view = View::from_above(&scene, 400, 300);
+    RENDERER.columns(&scene, &view).unwrap()
+}
+
+/// A square column around the middle of the house.
+fn column(half: f64, [bottom, top]: [f64; 2], grounded: bool) -> PictureColumn {
+    let square = [[-half, -half], [half, -half], [half, half], [-half, half]];
+    let exterior = square.map(|[x, y]| [85_000.0 + x, 447_000.0 + y]).to_vec();
+    let holes = vec![];
+    PictureColumn {
+        footprint: Area { exterior, holes },
+        bottom,
+        top,
+        grounded,
+    }
+}
+
+/// Pixels of orange and of purple beside the legend.
+fn orange_and_purple(image: &Image) -> [usize; 2] {
+    let is_purple = |[r, g, b]: [u8; 3]| r.min(b) > g.saturating_add(15) && r.abs_diff(b) < 25;
+    let beside = || pixels(image).filter(|&(x, y, _)| x > 125 || y > 100);
+    let orange = beside().filter(|&(.., c)| leans(c, 0)).count();
+    [orange, beside().filter(|&(.., c)| is_purple(c)).count()]
+}
+
+#[test]
+fn columns_are_seen_inside_glass() {
+    let empty = looked_into(vec![]);
+    assert_eq!(orange_and_purple(&empty), [0, 0]);
+    let grounded = looked_into(vec![column(6.0, [0.0, 9.0], true)]);
+    let [orange, purple] = orange_and_purple(&grounded);
+    assert!(orange > 2000 && purple == 0, "{orange} {purple}");
+    let raised = looked_into(vec![column(6.0, [3.0, 9.0], false)]);
+    let [orange, purple] = orange_and_purple(&raised);
+    assert!(orange == 0 && purple > 2000, "{orange} {purple}");
+    let [glass, ground] = [[200, 250], [10, 290]].map(|[x, y]| rgb(&grounded, x, y));
+    assert_eq!(glass, rgb(&empty, 200, 250));
+    assert!(
+        glass[2] > ground[2] - 20 && glass[0] + 5 < ground[0],
+        "{glass:?} {ground:?}"
+    );
+}
+
+#[test]
+fn nested_columns_are_told_apart() {
+    let levels = [8.0, 4.0].map(|half| column(half, [0.0, 9.0 - half / 16.0], true));
+    let lines = |columns: &[PictureColumn]| {
+        let image = looked_into(columns.to_vec());
+        let light = |y| rgb(&image, 200, y).map(i32::from).iter().sum::<i32>();
+        let is_line = |&y: &u32| light(y) + 20 < light(y - 3).min(light(y + 3));
+        // The upper edge of the top, with no wall beside it.
+        (5..60).filter(is_line).count()
+    };
+    assert_eq!(lines(&levels[..1]), 0);
+    assert!(lines(&levels) > 0);
+}
+
+#[test]
+fn broken_columns_are_left_out() {
+    let mut broken = column(6.0, [0.0, 9.0], true);
+    broken.footprint.exterior[1][0] = f64::NAN;
+    let endless = column(6.0, [0.0, f64::INFINITY], true);
+    let image = looked_into(vec![broken, endless]);
+    assert_eq!(orange_and_purple(&image), [0, 0]);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! `occlusion render`: a picture of an answer.
 
+mod columns;
 mod picture;
 mod size;
 
@@ -18,12 +19,15 @@ use size::Size;
 const EXAMPLES: &str = "Examples:
   occlusion render delft --observer 85200,446800,1.7 --heading 45 --angle 90 -o street.png
   occlusion render delft --observer 85200,446800,1.7 --range 300 --plan -o plan.png
-  occlusion render delft --observer 85200,446800,1.7 --heading 45 --angle 90 --above";
+  occlusion render delft --observer 85200,446800,1.7 --heading 45 --angle 90 --above
+  occlusion render delft --observer 84738,446786,1.7 --range 24 --columns -o columns.png";
 
 /// Draws what an observer sees
 ///
 /// Green: in the answer, and truly visible. Blue: in the answer, although hidden. Red: in the field
-/// of view, and left out of the answer as hidden. Grey: outside the field of view.
+/// of view, and left out of the answer as hidden. Grey: outside the field of view. With --columns,
+/// orange: the solid columns, which hide what is behind them, inside transparent buildings; purple:
+/// those that are not grounded.
 #[derive(Args, Debug)]
 #[command(after_help = format!("{EXAMPLES}\n\n{EXIT_STATUS}"))]
 pub struct Render {
@@ -37,6 +41,10 @@ pub struct Render {
     /// Look over the observer's shoulder from the air
     #[arg(long)]
     above: bool,
+    /// Look from the air at what hides: the solid columns of the features in the field of view.
+    /// Needs no occlusion volumes
+    #[arg(long, conflicts_with_all = ["plan", "above", "truth"])]
+    columns: bool,
     /// Colour by what is truly visible alone, whatever the answer is
     #[arg(long)]
     truth: bool,
@@ -60,7 +68,10 @@ impl Render {
         let drawing = terminal::spinner("drawing");
         let scene = scene::load(&mut client, &self.scene)?;
         let renderer = Renderer::new()?;
-        let picture = self.picture(&mut client, &scene, &renderer)?;
+        let picture = match self.columns {
+            true => self.solids(&mut client, &scene)?,
+            false => self.picture(&mut client, &scene, &renderer)?,
+        };
         let path = self
             .output
             .clone()
@@ -75,6 +86,10 @@ impl Render {
         let Size { width, height } = self.size;
         if self.plan {
             return Ok(plan(picture, &self.plan_view(picture))?);
+        }
+        if self.columns {
+            let view = View::from_above(picture, width, height);
+            return Ok(renderer.columns(picture, &view)?);
         }
         let observer = self.observer();
         let view = match self.above {

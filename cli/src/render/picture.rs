@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use geo::Polygon;
 use postgres::Client;
 use renderer::{Area, Observer, PictureFeature, PictureScene, PlanView, Renderer, Status};
 
@@ -9,7 +10,7 @@ use super::Render;
 use super::size::Size;
 use crate::failure::Failure;
 use crate::field_of_view::Returned;
-use crate::scene::{Scene, Street, Surfaces, number};
+use crate::scene::{Scene, Surfaces, number};
 
 /// Pixels along a side of each face of the item buffer that tells what is truly visible.
 const TRUTH: u32 = 2048;
@@ -48,16 +49,26 @@ impl Render {
             .map(|(position, feature)| PictureFeature {
                 status: status(position, feature.id),
                 triangles: feature.surface().unwrap_or_default(),
+                columns: Vec::new(),
             });
         Ok(PictureScene {
+            features: features.collect(),
+            ..self.surroundings(scene)
+        })
+    }
+
+    /// The picture without features.
+    pub fn surroundings(&self, scene: &Scene) -> PictureScene {
+        let streets = scene.streets.iter().map(|street| area(&street.area));
+        PictureScene {
             title: self.caption.clone().unwrap_or_else(|| self.scene.clone()),
             subtitle: self.question(),
             attribution: scene.attribution.clone().unwrap_or_default(),
-            features: features.collect(),
-            streets: scene.streets.iter().map(area).collect(),
+            features: Vec::new(),
+            streets: streets.collect(),
             rectangles: Vec::new(),
             observer: Some(self.observer()),
-        })
+        }
     }
 
     /// Who looks, and whereto.
@@ -74,17 +85,21 @@ impl Render {
     /// What was asked, in words.
     fn question(&self) -> String {
         let [x, y, z] = self.field_of_view.observer.0;
-        let range = self.field_of_view.range;
-        let whereto = match self.field_of_view.direction() {
-            None => "all round".to_owned(),
-            Some((heading, angle)) => format!("heading {heading}°, {angle}° wide"),
-        };
         let coloured = if self.truth {
             "\ncoloured by what is truly visible"
         } else {
             ""
         };
-        format!("from {x:.2}, {y:.2}, {z:.2}\n{whereto}, {range} m far{coloured}")
+        format!("from {x:.2}, {y:.2}, {z:.2}\n{}{coloured}", self.whereto())
+    }
+
+    /// The field of view but for the eye, in words.
+    pub fn whereto(&self) -> String {
+        let range = self.field_of_view.range;
+        match self.field_of_view.direction() {
+            None => format!("all round, {range} m far"),
+            Some((heading, angle)) => format!("heading {heading}°, {angle}° wide, {range} m far"),
+        }
     }
 
     /// The whole scene, or what is in range where the scene is much wider.
@@ -127,11 +142,12 @@ fn true_status(within: bool, seen: bool) -> Status {
     }
 }
 
-fn area(street: &Street) -> Area {
+/// A polygon for the renderer.
+pub fn area(polygon: &Polygon<f64>) -> Area {
     let ring = |line: &geo::LineString<f64>| line.coords().map(|c| [c.x, c.y]).collect();
     Area {
-        exterior: ring(street.area.exterior()),
-        holes: street.area.interiors().iter().map(ring).collect(),
+        exterior: ring(polygon.exterior()),
+        holes: polygon.interiors().iter().map(ring).collect(),
     }
 }
 

@@ -69,7 +69,7 @@ impl Layer {
 }
 
 /// Corners of the triangles of a polygon, three each. Empty for a polygon that is not finite.
-fn triangulate(area: &Area) -> Vec<[f64; 2]> {
+pub(crate) fn triangulate(area: &Area) -> Vec<[f64; 2]> {
     let mut points: Vec<[f64; 2]> = open(&area.exterior).to_vec();
     let mut holes: Vec<u32> = Vec::new();
     for hole in area
@@ -93,7 +93,7 @@ fn triangulate(area: &Area) -> Vec<[f64; 2]> {
 }
 
 /// A ring without its repeated last point.
-fn open(ring: &[[f64; 2]]) -> &[[f64; 2]] {
+pub(crate) fn open(ring: &[[f64; 2]]) -> &[[f64; 2]] {
     match ring {
         [first, .., last] if first == last => &ring[..ring.len() - 1],
         _ => ring,

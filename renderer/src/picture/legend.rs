@@ -28,6 +28,8 @@ pub(crate) struct Shows {
     pub rectangles: bool,
     /// The observer and the field of view.
     pub observer: bool,
+    /// Columns inside transparent features, instead of an answer.
+    pub columns: bool,
 }
 
 /// A legend laid out for a width.
@@ -154,23 +156,11 @@ impl Legend {
 
 /// What the picture shows, and nothing that it does not show.
 fn rows(scene: &PictureScene, shows: Shows) -> Vec<Row> {
-    let mut rows = Vec::new();
-    for status in Status::ALL {
-        let count = scene.count(status);
-        if count > 0 || status == Status::Visible {
-            let (fill, edge) = (palette::fill(status), palette::outline(status));
-            let swatch = Swatch::Patch {
-                fill,
-                alpha: 1.0,
-                edge,
-            };
-            rows.push(Row {
-                swatch,
-                label: label(status),
-                count: Some(count),
-            });
-        }
-    }
+    let mut rows = if shows.columns {
+        column_rows(scene)
+    } else {
+        answer_rows(scene)
+    };
     let mut mark = |swatch, label, count| {
         rows.push(Row {
             swatch,
@@ -201,6 +191,57 @@ fn rows(scene: &PictureScene, shows: Shows) -> Vec<Row> {
         mark(Swatch::Eye, "Observer", None);
     }
     rows
+}
+
+/// The features by status: always the visible ones, others where there are any.
+fn answer_rows(scene: &PictureScene) -> Vec<Row> {
+    let row = |status| {
+        counted(
+            palette::fill(status),
+            1.0,
+            label(status),
+            scene.count(status),
+        )
+    };
+    Status::ALL
+        .into_iter()
+        .map(|status| (status, row(status)))
+        .filter(|(status, row)| *status == Status::Visible || row.count > Some(0))
+        .map(|(_, row)| row)
+        .collect()
+}
+
+/// The features as glass, and the columns in them: always the grounded ones, others where there are
+/// any.
+fn column_rows(scene: &PictureScene) -> Vec<Row> {
+    let column = |grounded, label| {
+        let count = scene.count_columns(grounded);
+        counted(palette::column(grounded), 1.0, label, count)
+    };
+    let glass = counted(
+        palette::GLASS,
+        palette::GLASS_ALPHA,
+        "Building, transparent",
+        scene.features.len(),
+    );
+    let mut rows = vec![glass, column(true, "Solid column, grounded")];
+    let raised = column(false, "Solid column, not grounded");
+    rows.extend((raised.count > Some(0)).then_some(raised));
+    rows
+}
+
+/// A row with the number of what has this colour.
+fn counted(fill: Rgb, alpha: f32, label: &'static str, count: usize) -> Row {
+    let swatch = Swatch::Patch {
+        fill,
+        alpha,
+        edge: palette::outline(fill),
+    };
+    Row {
+        swatch,
+        label,
+        count: Some(count),
+    }
 }
 
 fn label(status: Status) -> &'static str {
@@ -236,12 +277,13 @@ fn grouped(number: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::{Observer, PictureFeature};
+    use crate::picture::{Area, Observer, PictureColumn, PictureFeature};
 
     const ALL: Shows = Shows {
         street: palette::STREET,
         rectangles: true,
         observer: true,
+        columns: false,
     };
 
     #[test]
@@ -270,6 +312,7 @@ mod tests {
         scene.features.push(PictureFeature {
             status: Status::Hidden,
             triangles: vec![],
+            columns: vec![],
         });
         scene.rectangles.push(([0.0; 2], [1.0; 2]));
         scene.observer = Some(Observer {
@@ -288,6 +331,29 @@ mod tests {
                 ("Observer", None),
             ]
         );
+    }
+
+    #[test]
+    fn rows_of_columns_tell_nothing_of_an_answer() {
+        let column = |grounded| PictureColumn {
+            footprint: Area::default(),
+            bottom: 0.0,
+            top: 3.0,
+            grounded,
+        };
+        let shows = Shows {
+            columns: true,
+            ..ALL
+        };
+        let mut scene = PictureScene::default();
+        assert_eq!(rows(&scene, shows).len(), 2);
+        scene.features.push(PictureFeature {
+            status: Status::Visible,
+            triangles: vec![],
+            columns: vec![column(true), column(false), column(true)],
+        });
+        let counts: Vec<_> = rows(&scene, shows).iter().map(|row| row.count).collect();
+        assert_eq!(counts, [Some(1), Some(2), Some(1)]);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! What people look at: a scene with an answer, in plan and in perspective.
 
+mod columns;
 mod ground;
 mod image;
 mod legend;
@@ -47,6 +48,21 @@ pub struct PictureFeature {
     pub status: Status,
     /// Its surface, in metres, z up. Triangles with coordinates that are not finite are not drawn.
     pub triangles: Vec<[[f64; 3]; 3]>,
+    /// What of it is solid. Drawn by [`crate::Renderer::columns`] only.
+    pub columns: Vec<PictureColumn>,
+}
+
+/// A footprint raised from a height to another. Not drawn when a coordinate is not finite.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PictureColumn {
+    /// Its outline.
+    pub footprint: Area,
+    /// Lower height, in metres.
+    pub bottom: f64,
+    /// Upper height, in metres.
+    pub top: f64,
+    /// True when the ground under it is solid too.
+    pub grounded: bool,
 }
 
 /// A polygon on the ground; rings of any orientation, closed or not.
@@ -127,6 +143,12 @@ impl PictureScene {
             .iter()
             .filter(|feature| feature.status == status)
             .count()
+    }
+
+    /// How many columns are grounded, or not.
+    fn count_columns(&self, grounded: bool) -> usize {
+        let columns = self.features.iter().flat_map(|feature| &feature.columns);
+        columns.filter(|column| column.grounded == grounded).count()
     }
 
     /// Smallest box that holds features and streets; `None` when there are neither.

@@ -23,6 +23,11 @@ pub(crate) const FIELD_OF_VIEW_EDGE: Rgb = Rgb(196, 138, 20);
 pub(crate) const RECTANGLE: Rgb = Rgb(122, 92, 168);
 pub(crate) const WHITE: Rgb = Rgb(255, 255, 255);
 
+/// The surface of a building that is looked into, and how much of it is seen.
+pub(crate) const GLASS: Rgb = Rgb(178, 218, 250);
+pub(crate) const GLASS_EDGE: Rgb = Rgb(244, 250, 255);
+pub(crate) const GLASS_ALPHA: f32 = 0.2;
+
 /// How strongly occlusion volumes tint what they cover.
 pub(crate) const RECTANGLE_ALPHA: f32 = 0.22;
 
@@ -39,9 +44,16 @@ pub(crate) const fn fill(status: Status) -> Rgb {
     }
 }
 
-/// The colour of its outline: the same, darker.
-pub(crate) fn outline(status: Status) -> Rgb {
-    let Rgb(r, g, b) = fill(status);
+/// The colour of a column: orange and reddish purple of the same set.
+pub(crate) const fn column(grounded: bool) -> Rgb {
+    match grounded {
+        true => Rgb(230, 159, 0),
+        false => Rgb(176, 86, 140),
+    }
+}
+
+/// The colour of an outline: the same, darker.
+pub(crate) fn outline(Rgb(r, g, b): Rgb) -> Rgb {
     let darker = |channel: u8| (f32::from(channel) * 0.72) as u8;
     Rgb(darker(r), darker(g), darker(b))
 }

@@ -1,6 +1,7 @@
 //! The perspective: the scene as a camera sees it, with sun, shadows and outlines.
 
 use super::legend::{Legend, Shows};
+use super::palette::Rgb;
 use super::pipeline::{Globals, KEY_FORMAT, LIGHT_FORMAT, Pipelines};
 use super::plan::unit;
 use super::shapes::{draw_eye, fill_round, stroke};
@@ -17,12 +18,51 @@ use wgpu::util::DeviceExt;
 /// Samples along each side of a pixel.
 const SUPERSAMPLE: u32 = 2;
 
+/// What a perspective's card tells, unless told otherwise.
+pub(super) const SHOWS: Shows = Shows {
+    street: palette::STREET_ON_GROUND,
+    rectangles: false,
+    observer: false,
+    columns: false,
+};
+
 /// How dark outlines are: between features, and between the faces of one.
 const BORDER: f32 = 0.5;
 const CREASE: f32 = 0.22;
 
+/// How much stronger the outlines of glass are: they are lines of a colour before others.
+const GLASS_EDGE: f32 = 3.0;
+
 /// Faces whose normals have a smaller cosine meet in a crease.
 const CREASE_COSINE: f32 = 0.9;
+
+/// What a camera sees.
+#[derive(Default)]
+pub(super) struct Layer {
+    /// sRGB samples.
+    samples: Vec<u8>,
+    /// What surface each of them shows, and how it is turned.
+    keys: Vec<[u32; 2]>,
+}
+
+impl Layer {
+    /// The linear light of a sample.
+    fn light(&self, sample: usize, table: &[f32]) -> [f32; 3] {
+        std::array::from_fn(|channel| table[self.samples[4 * sample + channel] as usize])
+    }
+
+    /// What is left of the light behind where this is glass, which sky and ground are not.
+    fn before(&self, behind: [f32; 3], sample: usize, table: &[f32]) -> [f32; 3] {
+        match self.keys[sample][0] {
+            0 => behind,
+            _ => mix(behind, self.light(sample, table), palette::GLASS_ALPHA),
+        }
+    }
+}
+
+fn mix(a: [f32; 3], b: [f32; 3], share: f32) -> [f32; 3] {
+    std::array::from_fn(|channel| a[channel] + share * (b[channel] - a[channel]))
+}
 
 impl Renderer {
     /// Draws the scene as a camera sees it, in the colours of the answer.
@@ -39,33 +79,36 @@ impl Renderer {
             .observer
             .is_some_and(|observer| observer.eye == view.eye);
         let flat = ground::ground(scene, view.eye, height, !own);
-        let upright = surface::features(scene, view.eye, height);
-        let (light, keys) = self.render(view, &axes, [&flat, &upright], size)?;
-        let mut pixmap = shrink(&light, &keys, size)
-            .ok_or_else(|| Error::View(format!("a picture of {size:?} samples")))?;
+        let upright = surface::features(scene, view.eye, height, palette::fill);
+        let layer = self.render(view, &axes, [&flat, &upright], size)?;
+        let mut pixmap = shrink(&layer, None, size)?;
         if !own {
             mark_observer(&mut pixmap, scene, view, &axes, height);
         }
-        draw_card(&mut pixmap, scene, !own);
+        let shows = Shows {
+            observer: !own,
+            ..SHOWS
+        };
+        draw_card(&mut pixmap, scene, shows);
         Ok(Image::from_pixmap(pixmap))
     }
 
     /// Samples across and down.
-    fn sampled_size(&self, view: &View) -> Result<[u32; 2]> {
+    pub(super) fn sampled_size(&self, view: &View) -> Result<[u32; 2]> {
         let size = [view.width, view.height].map(|side| side.saturating_mul(SUPERSAMPLE));
         size.into_iter()
             .try_for_each(|side| self.check_resolution(side))?;
         Ok(size)
     }
 
-    /// Draws shadows, sky, ground and features; returns sRGB samples, and what surface each shows.
-    fn render(
+    /// Draws shadows, sky, ground and features.
+    pub(super) fn render(
         &self,
         view: &View,
         axes: &Axes,
         [flat, upright]: [&[SurfaceVertex]; 2],
         size: [u32; 2],
-    ) -> Result<(Vec<u8>, Vec<[u32; 2]>)> {
+    ) -> Result<Layer> {
         let sun = sun::Sun::over(upright, self.max_resolution());
         let shadows = Target::new(self, [sun.resolution; 2], DEPTH_FORMAT);
         let globals = Globals::new(view, axes, &sun);
@@ -98,12 +141,14 @@ impl Renderer {
         let light_done = light_back.submit(self, encoder, &light);
         let second = self.device.create_command_encoder(&Default::default());
         let keys_done = keys_back.submit(self, second, &keys);
-        let (mut samples, mut surfaces) = (Vec::new(), Vec::new());
-        light_back.rows(self, light_done, |_, row| samples.extend_from_slice(row))?;
-        keys_back.rows(self, keys_done, |_, row| {
-            surfaces.extend_from_slice(bytemuck::cast_slice(row));
+        let mut layer = Layer::default();
+        light_back.rows(self, light_done, |_, row| {
+            layer.samples.extend_from_slice(row)
         })?;
-        Ok((samples, surfaces))
+        keys_back.rows(self, keys_done, |_, row| {
+            layer.keys.extend_from_slice(bytemuck::cast_slice(row));
+        })?;
+        Ok(layer)
     }
 
     /// Never empty, since an empty buffer cannot be bound.
@@ -123,26 +168,35 @@ impl Renderer {
     }
 }
 
-/// Averages samples in linear light, darkened where surfaces meet.
-fn shrink(samples: &[u8], surfaces: &[[u32; 2]], [width, height]: [u32; 2]) -> Option<Pixmap> {
+/// Averages samples in linear light, darkened where surfaces meet, with glass before them or not.
+pub(super) fn shrink(solid: &Layer, glass: Option<&Layer>, size: [u32; 2]) -> Result<Pixmap> {
     let table: Vec<f32> = (0..=u8::MAX).map(to_linear).collect();
+    let Rgb(red, green, blue) = palette::GLASS_EDGE;
+    let glass_edge = [red, green, blue].map(to_linear);
     let side = SUPERSAMPLE as usize;
-    let stride = width as usize;
-    let mut pixmap = Pixmap::new(width / SUPERSAMPLE, height / SUPERSAMPLE)?;
+    let [stride, height] = size.map(|samples| samples as usize);
+    let mut pixmap = Pixmap::new(size[0] / SUPERSAMPLE, size[1] / SUPERSAMPLE)
+        .ok_or_else(|| Error::View(format!("a picture of {size:?} samples")))?;
     let across = pixmap.width() as usize;
     for (at, pixel) in pixmap.data_mut().chunks_exact_mut(4).enumerate() {
         let corner = at / across * side * stride + at % across * side;
         let mut sum = [0.0; 3];
         for sample in (0..side * side).map(|i| corner + i / side * stride + i % side) {
-            let shade = 1.0 - outline(surfaces, sample, [stride, height as usize]);
-            for (channel, total) in sum.iter_mut().enumerate() {
-                *total += shade * table[samples[4 * sample + channel] as usize];
+            let shade = outline(&solid.keys, sample, [stride, height]);
+            let mut light = mix(solid.light(sample, &table), [0.0; 3], shade);
+            if let Some(glass) = glass {
+                let edge = outline(&glass.keys, sample, [stride, height]);
+                light = glass.before(light, sample, &table);
+                light = mix(light, glass_edge, (GLASS_EDGE * edge).min(1.0));
+            }
+            for (total, light) in sum.iter_mut().zip(light) {
+                *total += light;
             }
         }
         let mean = sum.map(|total| from_linear(total / (side * side) as f32));
         pixel.copy_from_slice(&[mean[0], mean[1], mean[2], u8::MAX]);
     }
-    Some(pixmap)
+    Ok(pixmap)
 }
 
 /// How much darker a sample is for its right and lower neighbours; less so far away.
@@ -205,14 +259,9 @@ fn mark_observer(pixmap: &mut Pixmap, scene: &PictureScene, view: &View, axes: &
 const PIN_HEIGHT: f32 = 34.0;
 
 /// The legend on a white card over the sky, and the attribution at the foot of the picture.
-fn draw_card(pixmap: &mut Pixmap, scene: &PictureScene, observer: bool) {
+pub(super) fn draw_card(pixmap: &mut Pixmap, scene: &PictureScene, shows: Shows) {
     let unit = unit(pixmap.width(), pixmap.height());
     let (pad, edge) = (16.0 * unit, 18.0 * unit);
-    let shows = Shows {
-        street: palette::STREET_ON_GROUND,
-        rectangles: false,
-        observer,
-    };
     let legend = Legend::new(scene, shows, unit, CARD_WIDTH * unit);
     let size = [CARD_WIDTH * unit + 2.0 * pad, legend.height() + 2.0 * pad];
     let under = [size[0] + 2.0 * unit, size[1] + 2.0 * unit];

@@ -31,6 +31,7 @@ const SHOWS: Shows = Shows {
     street: palette::STREET,
     rectangles: true,
     observer: true,
+    columns: false,
 };
 
 /// Free space around the whole scene, as a part of its size.
@@ -195,7 +196,7 @@ impl Map {
             stroke(
                 pixmap,
                 &path,
-                palette::outline(feature.status),
+                palette::outline(palette::fill(feature.status)),
                 1.0,
                 1.3 * unit,
             );

@@ -1,8 +1,8 @@
 //! Shaded triangles for the perspective, relative to its eye.
 
-use super::palette::{self, Rgb};
+use super::palette::Rgb;
 use super::view::{cross, unit};
-use super::{PictureFeature, PictureScene};
+use super::{PictureFeature, PictureScene, Status};
 use crate::scene_mesh::is_drawable;
 use bytemuck::{Pod, Zeroable};
 
@@ -52,11 +52,16 @@ fn foot(feature: &PictureFeature) -> Option<f64> {
         .reduce(f64::min)
 }
 
-/// All features, standing on the ground.
-pub(crate) fn features(scene: &PictureScene, eye: [f64; 3], ground: f64) -> Vec<SurfaceVertex> {
+/// All features, standing on the ground, each in the colour of its status.
+pub(crate) fn features(
+    scene: &PictureScene,
+    eye: [f64; 3],
+    ground: f64,
+    fill: fn(Status) -> Rgb,
+) -> Vec<SurfaceVertex> {
     let mut vertices = Vec::new();
     for (surface, feature) in (1..).zip(&scene.features) {
-        let color = linear(palette::fill(feature.status), 1.0);
+        let color = linear(fill(feature.status), 1.0);
         let foot = foot(feature).unwrap_or(ground);
         for triangle in drawable(feature) {
             let Some(normal) = normal(triangle) else {
@@ -74,12 +79,12 @@ pub(crate) fn features(scene: &PictureScene, eye: [f64; 3], ground: f64) -> Vec<
 }
 
 /// Moves the corners of a foot down to the ground, and what is below the ground up to it.
-fn stand([x, y, z]: [f64; 3], foot: f64, ground: f64) -> [f64; 3] {
+pub(crate) fn stand([x, y, z]: [f64; 3], foot: f64, ground: f64) -> [f64; 3] {
     let is_foot = z < foot + FOOT_HEIGHT && foot - ground < LARGEST_STEP;
     [x, y, if is_foot || z < ground { ground } else { z }]
 }
 
-fn normal([a, b, c]: &[[f64; 3]; 3]) -> Option<[f32; 3]> {
+pub(crate) fn normal([a, b, c]: &[[f64; 3]; 3]) -> Option<[f32; 3]> {
     let edge = |to: &[f64; 3]| std::array::from_fn(|axis| to[axis] - a[axis]);
     unit(cross(edge(b), edge(c))).map(|normal| normal.map(|c| c as f32))
 }
@@ -119,7 +124,7 @@ pub(crate) fn from_linear(light: f32) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::Status;
+    use crate::picture::palette;
 
     #[test]
     fn light_survives_the_round_trip() {
@@ -142,12 +147,13 @@ mod tests {
         let feature = PictureFeature {
             status: Status::Visible,
             triangles: vec![whole, broken, flat],
+            columns: vec![],
         };
         let scene = PictureScene {
             features: vec![feature],
             ..Default::default()
         };
-        assert_eq!(features(&scene, [0.0; 3], 0.0).len(), 3);
+        assert_eq!(features(&scene, [0.0; 3], 0.0, palette::fill).len(), 3);
         assert_eq!(ground_height(&scene), 0.0);
     }
 }

@@ -94,6 +94,10 @@ pub fn read_as(
 
 /// The first bytes of a file, which stays where it is.
 fn start_of(input: &mut dyn Input) -> io::Result<Vec<u8>> {
+    let buffered = input.fill_buf()?;
+    if buffered.len() as u64 >= START_BYTES {
+        return Ok(buffered.to_vec());
+    }
     let position = input.stream_position()?;
     let mut start = Vec::new();
     (&mut *input).take(START_BYTES).read_to_end(&mut start)?;

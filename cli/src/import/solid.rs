@@ -158,7 +158,7 @@ mod tests {
             .iter()
             .filter_map(|l| l.geometric_error)
             .collect();
-        assert_eq!(errors[1..], [8f64.sqrt(), 0.0]);
+        assert_eq!(errors[1..], [12f64.sqrt(), 0.0]);
     }
 
     #[test]

@@ -5,14 +5,17 @@ use std::collections::HashMap;
 use engine::SolidColumn;
 use indicatif::ParallelProgressIterator;
 use oracle::{
-    Column, Prism, ShapeFault, check_column, check_grounded, check_inner_envelope,
-    check_piece_in_column, check_volume,
+    Column, ColumnFault, GROUND_TOLERANCE, Mesh, Prism, ShapeFault, check_column,
+    check_inner_envelope, check_piece_in_column, check_volume, sample_column,
 };
 use rayon::prelude::*;
 
 use super::fault::Fault;
 use crate::scene::{Feature, Scene, Volume, rings};
 use crate::terminal;
+
+/// Points of a column that no proof holds for.
+const SAMPLES: usize = 20_000;
 
 /// Everything that is wrong with the stored meshes and envelopes.
 pub fn check_features(scene: &Scene) -> Vec<Fault> {
@@ -70,13 +73,7 @@ fn column_faults(feature: &Feature) -> Vec<String> {
     let fault = |(number, solid): (usize, &SolidColumn)| {
         let fault = match column(solid) {
             Err(fault) => fault.to_string(),
-            Ok(column) => check_column(mesh, &column)
-                .and_then(|()| match solid.grounded {
-                    true => check_grounded(mesh, &column),
-                    false => Ok(()),
-                })
-                .err()?
-                .to_string(),
+            Ok(column) => column_fault(mesh, solid, &column)?,
         };
         Some(format!("solid column {}: {fault}", number + 1))
     };
@@ -86,6 +83,23 @@ fn column_faults(feature: &Feature) -> Vec<String> {
         .enumerate()
         .filter_map(fault)
         .collect()
+}
+
+/// Why a column is not solid. Where the parts of a solid touch or overlap a face of one of them may
+/// run through the column; then no proof is left, and points all over it must be inside.
+fn column_fault(mesh: &Mesh, solid: &SolidColumn, column: &Column) -> Option<String> {
+    let fault = match check_column(mesh, column).err()? {
+        ColumnFault::TriangleInside { .. } => {
+            let heights = mesh.vertices.iter().map(|vertex| vertex[2]);
+            let foot = heights.fold(f64::INFINITY, f64::min);
+            if solid.grounded && solid.bottom - foot > GROUND_TOLERANCE {
+                return Some(format!("it is not at the foot of the mesh, {foot}"));
+            }
+            sample_column(mesh, column, SAMPLES, 1).into_iter().next()?
+        }
+        fault => fault,
+    };
+    Some(fault.to_string())
 }
 
 /// A column as the oracle takes it.

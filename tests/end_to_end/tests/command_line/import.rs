@@ -115,7 +115,11 @@ fn hostile_files_leave_nothing_behind() {
     let good = City::default().block("house", [0.0; 3], [5.0; 3]).text();
     let cases = [
         ("empty.json", String::new(), "the file is empty"),
-        ("words.json", "no city".to_owned(), "no json object"),
+        (
+            "words.json",
+            "no city".to_owned(),
+            "the format is not known",
+        ),
         (
             "truncated.json",
             good[..good.len() / 2].to_owned(),

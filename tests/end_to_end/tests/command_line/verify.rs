@@ -6,7 +6,7 @@ use end_to_end::{City, Run, TestScene, occlusion, real_file, shell};
 use tempfile::tempdir;
 
 /// The columns of `point3d` corners moved along x.
-const ALONG_X: &str = "occlusion.point3d(occlusion.x(p) + 50, occlusion.y(p), occlusion.z(p))";
+const RAISED: &str = "occlusion.point3d(occlusion.x(p), occlusion.y(p), occlusion.z(p) + 100)";
 
 fn verify(scene: &TestScene, observers: &str) -> Run {
     occlusion(&[
@@ -89,8 +89,8 @@ fn a_moved_volume_is_found() {
     let mut scene = blocks("moved volume");
     scene.run(&format!(
         "UPDATE {{s}}.occlusion_volume SET box = occlusion.box3d(
-             (SELECT {ALONG_X} FROM occlusion.lower(box) AS p),
-             (SELECT {ALONG_X} FROM occlusion.upper(box) AS p))
+             (SELECT {RAISED} FROM occlusion.lower(box) AS p),
+             (SELECT {RAISED} FROM occlusion.upper(box) AS p))
          WHERE ctid = (SELECT min(ctid) FROM {{s}}.occlusion_volume)"
     ));
     let run = verify(&scene, "0").expect(1);

@@ -379,7 +379,7 @@ fn what_is_refused_says_so_with_the_line() {
     let version = read_bytes("a.wrl", b"#VRML V1.0 ascii\n", &ReadOptions::default());
     assert_eq!(
         version.unwrap_err().to_string(),
-        "a.wrl: type is \"#VRML V1.0 ascii\", expected \"#VRML V2.0 utf8\""
+        "a.wrl: vrml 1.0 (convert it to vrml97) is not supported"
     );
 }
 

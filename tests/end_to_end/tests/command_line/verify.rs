@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use end_to_end::{City, Run, TestScene, occlusion, real_file, shell};
 use tempfile::tempdir;
 
-/// The columns of `point3d` corners moved along x.
+/// A corner moved up, to where an eye looks over everything.
 const RAISED: &str = "occlusion.point3d(occlusion.x(p), occlusion.y(p), occlusion.z(p) + 100)";
 
 fn verify(scene: &TestScene, observers: &str) -> Run {

@@ -54,9 +54,9 @@ impl Feature {
 
     /// The convex pieces of it that cast occlusion volumes. They are made as the database makes
     /// them, and the checks find out whether they are what they should be.
-    pub fn pieces(&self) -> Vec<Prism> {
+    pub fn pieces(&self, options: &ConvexPieceOptions) -> Vec<Prism> {
         let solids: Vec<SolidColumn> = self.solids().collect();
-        let pieces = convex_pieces(&solids, &ConvexPieceOptions::default());
+        let pieces = convex_pieces(&solids, options);
         pieces
             .iter()
             .filter_map(|piece| prism(piece).ok())

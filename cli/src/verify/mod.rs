@@ -59,6 +59,9 @@ pub struct Verify {
     /// Rays at each feature that an answer left out
     #[arg(long, value_name = "N", default_value_t = 64)]
     rays: usize,
+    /// Points all over the solid columns that must be inside, besides the proofs
+    #[arg(long, value_name = "N", default_value_t = 100_000)]
+    samples: usize,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -81,7 +84,7 @@ impl Verify {
         let count = scene::count_volumes(&mut transaction, &self.scene)?;
         loading.finish_and_clear();
         self.require_streets(&scene)?;
-        let mut faults = stored::check_features(&scene);
+        let mut faults = stored::check_features(&scene, self.samples);
         let mut lottery = Lottery::new(self.observers * observers::TRIES, self.seed);
         let checker = stored::VolumeChecker::new(&scene);
         let bar = terminal::bar(count, "volumes");

@@ -36,7 +36,7 @@ pub struct View {
     pub visible: usize,
     /// Not seen in the item buffer.
     pub hidden: usize,
-    /// Hidden by a single inner envelope.
+    /// Hidden by a single convex piece.
     pub hidden_by_one: usize,
     /// Of these, missing from the answer.
     pub left_out_by_one: usize,

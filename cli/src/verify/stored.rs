@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use engine::SolidColumn;
+use engine::{ConvexPieceOptions, SolidColumn};
 use indicatif::ParallelProgressIterator;
 use oracle::{
     Column, ColumnFault, GROUND_TOLERANCE, Mesh, Prism, ShapeFault, check_column,
@@ -14,20 +14,35 @@ use super::fault::Fault;
 use crate::scene::{Feature, Scene, Volume, rings};
 use crate::terminal;
 
+/// Every convex piece that can be found, the most useful first: volumes that were made from fewer
+/// are right all the same.
+const ALL_PIECES: ConvexPieceOptions = ConvexPieceOptions {
+    most: usize::MAX,
+    least_share: 0.0,
+};
+
 /// Points of a column that no proof holds for.
 const SAMPLES: usize = 20_000;
 
-/// Everything that is wrong with the stored meshes and envelopes.
-pub fn check_features(scene: &Scene) -> Vec<Fault> {
-    let bar = terminal::bar(scene.features.len(), "envelopes");
+/// Everything that is wrong with the stored meshes, envelopes and columns.
+///
+/// Besides the proofs about `samples` points all over the solid columns must be inside.
+pub fn check_features(scene: &Scene, samples: usize) -> Vec<Fault> {
+    let bar = terminal::bar(scene.features.len(), "envelopes and columns");
+    let columns: usize = scene
+        .features
+        .iter()
+        .map(|feature| feature.columns.len())
+        .sum();
+    let each = samples.div_ceil(columns.max(1));
     let features = scene.features.par_iter().progress_with(bar);
     features
-        .flat_map_iter(feature_faults)
+        .flat_map_iter(|feature| feature_faults(feature, each))
         .map(Fault::Stored)
         .collect()
 }
 
-fn feature_faults(feature: &Feature) -> Vec<String> {
+fn feature_faults(feature: &Feature, samples: usize) -> Vec<String> {
     [
         mesh_fault(feature),
         outer_fault(feature),
@@ -35,7 +50,7 @@ fn feature_faults(feature: &Feature) -> Vec<String> {
     ]
     .into_iter()
     .flatten()
-    .chain(column_faults(feature))
+    .chain(column_faults(feature, samples))
     .map(|fault| format!("{feature}: {fault}"))
     .collect()
 }
@@ -66,14 +81,14 @@ fn inner_fault(feature: &Feature) -> Option<String> {
 
 /// Each solid column lies inside the solid, and a grounded one on its foot. Without a mesh the
 /// columns are the solid.
-fn column_faults(feature: &Feature) -> Vec<String> {
+fn column_faults(feature: &Feature, samples: usize) -> Vec<String> {
     let Some(mesh) = &feature.mesh else {
         return Vec::new();
     };
     let fault = |(number, solid): (usize, &SolidColumn)| {
         let fault = match column(solid) {
             Err(fault) => fault.to_string(),
-            Ok(column) => column_fault(mesh, solid, &column)?,
+            Ok(column) => column_fault(mesh, solid, &column, samples)?,
         };
         Some(format!("solid column {}: {fault}", number + 1))
     };
@@ -87,17 +102,26 @@ fn column_faults(feature: &Feature) -> Vec<String> {
 
 /// Why a column is not solid. Where the parts of a solid touch or overlap a face of one of them may
 /// run through the column; then no proof is left, and points all over it must be inside.
-fn column_fault(mesh: &Mesh, solid: &SolidColumn, column: &Column) -> Option<String> {
-    let fault = match check_column(mesh, column).err()? {
-        ColumnFault::TriangleInside { .. } => {
+fn column_fault(
+    mesh: &Mesh,
+    solid: &SolidColumn,
+    column: &Column,
+    samples: usize,
+) -> Option<String> {
+    let fault = match check_column(mesh, column).err() {
+        None if samples == 0 => return None,
+        None => sample_column(mesh, column, samples, 1).into_iter().next()?,
+        Some(ColumnFault::TriangleInside { .. }) => {
             let heights = mesh.vertices.iter().map(|vertex| vertex[2]);
             let foot = heights.fold(f64::INFINITY, f64::min);
             if solid.grounded && solid.bottom - foot > GROUND_TOLERANCE {
                 return Some(format!("it is not at the foot of the mesh, {foot}"));
             }
-            sample_column(mesh, column, SAMPLES, 1).into_iter().next()?
+            sample_column(mesh, column, SAMPLES.max(samples), 1)
+                .into_iter()
+                .next()?
         }
-        fault => fault,
+        Some(fault) => fault,
     };
     Some(fault.to_string())
 }
@@ -113,7 +137,7 @@ fn column(solid: &SolidColumn) -> Result<Column, ShapeFault> {
 fn pieces(feature: &Feature) -> Result<Vec<Prism>, String> {
     let solids: Result<Vec<Column>, ShapeFault> = feature.solids().map(|s| column(&s)).collect();
     let solids = solids.map_err(|fault| fault.to_string())?;
-    let pieces = feature.pieces();
+    let pieces = feature.pieces(&ALL_PIECES);
     for piece in &pieces {
         check_piece_in_column(piece, &solids).map_err(|fault| fault.to_string())?;
     }

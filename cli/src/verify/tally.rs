@@ -15,7 +15,7 @@ pub struct Tally {
     pub visible: usize,
     /// Features not seen.
     pub hidden: usize,
-    /// Features that a single inner envelope hides.
+    /// Features that a single convex piece hides.
     pub hidden_by_one: usize,
     /// Of these, left out of answers.
     pub left_out_by_one: usize,

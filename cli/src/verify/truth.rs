@@ -1,10 +1,11 @@
 //! [`Truth`], what rays are cast at and by what.
 
+use engine::ConvexPieceOptions;
 use oracle::{Occluder, OccluderIndex, Point, Prism, RayCaster, Triangle, surface_samples};
 use rayon::prelude::*;
 
 use crate::failure::Failure;
-use crate::scene::{Feature, Scene, Surfaces, number};
+use crate::scene::{Scene, Surfaces, number};
 
 /// The real surfaces of a scene, prepared for exact checks.
 pub struct Truth {
@@ -44,7 +45,11 @@ impl Truth {
 }
 
 fn occluders(scene: &Scene) -> Vec<Occluder> {
-    let pieces: Vec<Vec<Prism>> = scene.features.par_iter().map(Feature::pieces).collect();
+    let pieces: Vec<Vec<Prism>> = scene
+        .features
+        .par_iter()
+        .map(|feature| feature.pieces(&ConvexPieceOptions::default()))
+        .collect();
     let numbered = pieces.into_iter().enumerate();
     numbered
         .flat_map(|(position, pieces)| {

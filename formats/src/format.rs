@@ -94,14 +94,15 @@ pub fn read_as(
 
 /// The first bytes of a file, which stays where it is.
 fn start_of(input: &mut dyn Input) -> io::Result<Vec<u8>> {
-    let buffered = input.fill_buf()?;
-    if buffered.len() as u64 >= START_BYTES {
-        return Ok(buffered.to_vec());
+    let mut start = input.fill_buf()?.to_vec();
+    // What cannot go back has no more to show than what it has at hand.
+    if (start.len() as u64) < START_BYTES
+        && let Ok(position) = input.stream_position()
+    {
+        start.clear();
+        (&mut *input).take(START_BYTES).read_to_end(&mut start)?;
+        input.seek(SeekFrom::Start(position))?;
     }
-    let position = input.stream_position()?;
-    let mut start = Vec::new();
-    (&mut *input).take(START_BYTES).read_to_end(&mut start)?;
-    input.seek(SeekFrom::Start(position))?;
     Ok(start)
 }
 

@@ -17,7 +17,7 @@ const HEADER: &str = "#VRML V2.0 utf8";
 /// Most that is read: numbers take four times as much memory as the shortest text for them, nodes
 /// fifteen times, and the whole file is held until its last feature.
 const LIMITS: Limits = Limits {
-    input_bytes: 128 << 20,
+    input_bytes: 96 << 20,
     objects: 4_000_000,
     instance_vertices: MAX_SHARED_VERTICES as u64,
     ..Limits::STANDARD

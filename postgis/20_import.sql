@@ -84,8 +84,7 @@ BEGIN
             USING ERRCODE = 'data_exception', HINT = 'Bring the geometries into it with ST_Transform.';
     END IF;
     low := format('coalesce(%s, occlusion.level_of(t.%I), 0)',
-                  CASE WHEN occlusion.column_type(source, bottom) IS NULL THEN 'NULL::float8'
-                       ELSE format('t.%I::float8', bottom) END, geometry);
+                  occlusion.column_value(source, bottom, 'float8'), geometry);
     high := CASE
         WHEN occlusion.column_type(source, top) IS NOT NULL THEN format('t.%I::float8', top)
         WHEN occlusion.column_type(source, height) IS NOT NULL THEN format('%s + t.%I::float8', low, height)
@@ -97,8 +96,7 @@ BEGIN
     RETURN occlusion.import_rows(scene, source::text, format(
         'SELECT %s, %s, %s, occlusion.footprint_rings(t.%I), %s, %s, '
         'occlusion.faces(t.%4$I) FROM %7$s AS t',
-        CASE WHEN occlusion.column_type(source, name) IS NULL THEN 'NULL::text' ELSE format('t.%I::text', name) END,
-        CASE WHEN occlusion.column_type(source, class) IS NULL THEN 'NULL::text' ELSE format('t.%I::text', class) END,
+        occlusion.column_value(source, name, 'text'), occlusion.column_value(source, class, 'text'),
         occlusion.other_columns(source, ARRAY[geometry, bottom, top, height, name, class]),
         geometry, low, high, source));
 END

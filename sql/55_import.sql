@@ -1,12 +1,12 @@
 -- Features from rows.
 
-CREATE FUNCTION occlusion.settle_ground(scene text, first_feature bigint,
+CREATE FUNCTION occlusion.settle_ground(scene text, features bigint[],
                                         OUT aloft bigint, OUT opened bigint)
 RETURNS SETOF record
 LANGUAGE c VOLATILE STRICT SET search_path = pg_catalog, pg_temp ROWS 1
 AS 'MODULE_PATHNAME', 'settle_ground_wrapper';
-COMMENT ON FUNCTION occlusion.settle_ground(text, bigint) IS
-    'of the features from a number on, makes the solids of those that do not stand on the ground ungrounded, and removes them where a bottom was added; returns how many there are of each';
+COMMENT ON FUNCTION occlusion.settle_ground(text, bigint[]) IS
+    'of some features, makes the solids of those that do not stand on the ground ungrounded, and removes them where a bottom was added; returns how many there are of each';
 
 CREATE FUNCTION occlusion.import_rows(scene text, source text, query text) RETURNS bigint
 LANGUAGE c VOLATILE STRICT SET search_path = pg_catalog, pg_temp
@@ -22,6 +22,16 @@ SET search_path = pg_catalog, pg_temp AS $$
     WHERE a.attrelid = source AND a.attname = name AND a.attnum > 0 AND NOT a.attisdropped
 $$;
 COMMENT ON FUNCTION occlusion.column_type(regclass, text) IS 'type of a column, null if there is none';
+
+-- SQL for a column of a row "t" as some type, null where there is no such column.
+CREATE FUNCTION occlusion.column_value(source regclass, name text, type_name text) RETURNS text
+LANGUAGE sql STABLE STRICT PARALLEL SAFE
+SET search_path = pg_catalog, pg_temp AS $$
+    SELECT CASE WHEN occlusion.column_type(source, name) IS NULL THEN format('NULL::%s', type_name)
+                ELSE format('t.%I::%s', name, type_name) END
+$$;
+COMMENT ON FUNCTION occlusion.column_value(regclass, text, text) IS
+    'SQL for a column of a relation as some type; null where there is no such column';
 
 -- SQL for the columns of a row "t" but some, as jsonb. Those of PostGIS's types are left out: not
 -- all of their values have a form in JSON.
@@ -49,7 +59,7 @@ SET search_path = pg_catalog, pg_temp AS $$
 DECLARE
     kind text := occlusion.column_type(source, footprint);
     rings text;
-    low text := '0::float8';
+    low text := format('coalesce(%s, 0)', occlusion.column_value(source, bottom, 'float8'));
     high text;
 BEGIN
     PERFORM occlusion.require_scene(scene);
@@ -64,9 +74,6 @@ BEGIN
                                 ELSE format('Its type is %s, not polygon or polygon[].', kind) END,
                   HINT = 'Geometries of PostGIS are imported by import_geometries of the extension pg_occlusion_postgis.';
     END IF;
-    IF occlusion.column_type(source, bottom) IS NOT NULL THEN
-        low := format('coalesce(t.%I::float8, 0)', bottom);
-    END IF;
     high := CASE
         WHEN occlusion.column_type(source, top) IS NOT NULL THEN format('t.%I::float8', top)
         WHEN occlusion.column_type(source, height) IS NOT NULL THEN format('%s + t.%I::float8', low, height)
@@ -78,8 +85,7 @@ BEGIN
     END IF;
     RETURN occlusion.import_rows(scene, source::text, format(
         'SELECT %s, %s, %s, %s, %s, %s, NULL::bytea FROM %s AS t',
-        CASE WHEN occlusion.column_type(source, name) IS NULL THEN 'NULL::text' ELSE format('t.%I::text', name) END,
-        CASE WHEN occlusion.column_type(source, class) IS NULL THEN 'NULL::text' ELSE format('t.%I::text', class) END,
+        occlusion.column_value(source, name, 'text'), occlusion.column_value(source, class, 'text'),
         occlusion.other_columns(source, ARRAY[footprint, bottom, top, height, name, class]),
         rings, low, high, source));
 END

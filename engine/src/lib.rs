@@ -36,7 +36,7 @@ pub use solid::{Hides, Solid};
 pub use solid_column::SolidColumn;
 pub use umbra::{OCCLUDER_MARGIN, Occluder, ShadowCaster};
 pub use view_region::{
-    LocalGround, Site, Street, ViewRegionOptions, covers_ground, footprint, open_space,
-    streets_from_surfaces, without_footprints,
+    LocalGround, Site, Street, ViewRegionOptions, covers_ground, footprint, is_building,
+    open_space, streets_from_surfaces, without_footprints,
 };
 pub use volumes::{Block, OcclusionVolume, VolumeOptions, VolumeSolver};

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use crate::{
     Box3d, ColumnOptions, InnerEnvelope, MeshDefect, PolygonDefect, SolidColumn, SolidColumns,
-    TriangleMesh, extruded, inner_envelope, solid_columns,
+    TriangleMesh, extruded, inner_envelope, is_building, solid_columns,
 };
 
 /// A feature's surface with what hides others in it.
@@ -29,11 +29,12 @@ pub struct Hides {
 }
 
 impl Solid {
-    /// Closes the surface of a feature at its foot, where it lacks just a bottom, and looks for what
-    /// hides others in it.
+    /// Closes the surface of a building at its foot, where it lacks just a bottom, and looks for what
+    /// hides others in the surface. Only what stands on the ground may be closed; whether it does
+    /// shows in its neighbours.
     #[must_use]
-    pub fn of(mut mesh: TriangleMesh, options: &ColumnOptions) -> Self {
-        let cap = mesh.foot_cap();
+    pub fn of(mut mesh: TriangleMesh, class: &str, options: &ColumnOptions) -> Self {
+        let cap = is_building(class).then(|| mesh.foot_cap()).flatten();
         let closed_at = cap.and_then(|cap| {
             mesh.triangles.extend(cap);
             Some(mesh.envelope()?.min.z)
@@ -43,6 +44,13 @@ impl Solid {
             closed_at,
             mesh,
         }
+    }
+
+    /// What was added to the delivered surface, in words.
+    #[must_use]
+    pub fn repair(&self) -> Option<String> {
+        let foot = self.closed_at?;
+        Some(format!("closed at its foot, {foot} m"))
     }
 
     /// Footprints raised from height `bottom` up to `top`, metres: a column each. The simple form is

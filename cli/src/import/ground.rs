@@ -13,14 +13,14 @@ pub struct Hanging {
     pub open: usize,
 }
 
-/// Has the database correct what was written of the features from a number on.
+/// Has the database correct what was written of some features.
 pub fn settle(
     transaction: &mut Transaction<'_>,
     scene: &str,
-    first_feature: i64,
+    features: &[i64],
 ) -> Result<Hanging, Failure> {
     let statement = "SELECT aloft, opened FROM occlusion.settle_ground($1, $2)";
-    let row = transaction.query_one(statement, &[&scene, &first_feature])?;
+    let row = transaction.query_one(statement, &[&scene, &features])?;
     let count = |column| usize::try_from(row.get::<_, i64>(column)).unwrap_or_default();
     Ok(Hanging {
         aloft: count(0),

@@ -25,7 +25,7 @@ pub struct Importer<'a> {
     options: ColumnOptions,
     frame: Frame,
     names: Names,
-    first_feature: Option<i64>,
+    ids: Vec<i64>,
     roads: Vec<formats::Street>,
     tally: Tally,
 }
@@ -56,7 +56,7 @@ impl<'a> Importer<'a> {
             options,
             frame: Frame::new(srid, known),
             names: Names::default(),
-            first_feature: None,
+            ids: Vec::new(),
             roads: Vec::new(),
             tally: Tally::default(),
         })
@@ -90,27 +90,23 @@ impl<'a> Importer<'a> {
         let source = path.display().to_string();
         let (skipped, changed) = (&batch.skipped, &batch.changed);
         rows::remarks(&mut self.transaction, self.scene, &source, skipped, changed)?;
-        self.first_feature = self.first_feature.or(ids.first().copied());
+        self.ids.extend(ids);
         self.tally.add(&batch, &solids);
         self.roads.extend(batch.streets);
         Ok(())
     }
 
     /// Notes that a file came to its end.
-    pub fn end_file(&mut self, path: &Path, format: Format) -> Result<(), Failure> {
-        self.tally
-            .files
-            .push(format!("{} ({format})", path.display()));
-        Ok(())
+    pub fn end_file(&mut self, path: &Path, format: Format) {
+        let file = format!("{} ({format})", path.display());
+        self.tally.files.push(file);
     }
 
     /// Does what needs the whole scene, and commits.
     pub fn finish(mut self) -> Result<Report<'a>, Failure> {
         let spinner = terminal::spinner("streets");
-        if let Some(first) = self.first_feature {
-            let hanging = ground::settle(&mut self.transaction, self.scene, first)?;
-            self.tally.take_down(&hanging);
-        }
+        let hanging = ground::settle(&mut self.transaction, self.scene, &self.ids)?;
+        self.tally.take_down(&hanging);
         let mut made = 0;
         if !self.roads.is_empty() {
             let streets = streets::of_roads(&mut self.transaction, self.scene, &self.roads)?;
@@ -144,7 +140,8 @@ impl<'a> Importer<'a> {
             self.transaction.execute(&statement, &[&srid])?;
         }
         let statement = format!(
-            "UPDATE {schema}.scene_info SET attribution = concat_ws('; ', attribution, $1::text)"
+            "UPDATE {schema}.scene_info SET attribution = concat_ws('; ', attribution, $1::text) \
+             WHERE position($1 IN coalesce(attribution, '')) = 0"
         );
         for attribution in &self.tally.attributions {
             self.transaction.execute(&statement, &[attribution])?;

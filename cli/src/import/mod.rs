@@ -100,7 +100,7 @@ impl Import {
                 },
             );
             failure.map_or(Ok(()), Err)?;
-            importer.end_file(&path, format?)?;
+            importer.end_file(&path, format?);
         }
         bar.finish_and_clear();
         let mut report = importer.finish()?;

@@ -108,9 +108,7 @@ fn meshes(
                 .map(|&number| number.cast_signed())
                 .collect::<Vec<i32>>(),
             &solid.hides.as_ref().err().map(ToString::to_string),
-            &solid
-                .closed_at
-                .map(|foot| format!("closed at its foot, {foot} m")),
+            &solid.repair(),
         ])?;
     }
     copy.finish()

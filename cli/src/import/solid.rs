@@ -35,7 +35,7 @@ impl Solid {
             envelope: envelope.unwrap_or(Box3d::new(DVec3::ZERO, DVec3::ZERO)),
             prism: OuterPrism::around(points),
             level_of_detail: level.fold(f64::NEG_INFINITY, f64::max),
-            solid: engine::Solid::of(delivered, options),
+            solid: engine::Solid::of(delivered, &feature.class, options),
             levels,
         })
     }

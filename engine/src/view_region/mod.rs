@@ -14,6 +14,6 @@ pub use footprint::footprint;
 pub use local_ground::LocalGround;
 pub use open_space::open_space;
 pub use road::streets_from_surfaces;
-pub use site::{Site, covers_ground};
+pub use site::{Site, covers_ground, is_building};
 pub use street::Street;
 pub use tiling::ViewRegionOptions;

@@ -98,6 +98,13 @@ impl<'a> SiteIndex<'a> {
     }
 }
 
+/// Whether features of this class (CityJSON's names) can stand on solid ground, as buildings and
+/// their parts do, and never a bridge or a tunnel.
+#[must_use]
+pub fn is_building(class: &str) -> bool {
+    class.starts_with("Building")
+}
+
 /// Whether features of this class (CityJSON's names) cover the ground without standing in the
 /// way: observers walk on them.
 #[must_use]

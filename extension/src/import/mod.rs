@@ -4,12 +4,13 @@ mod row;
 mod solid;
 mod write;
 
-use crate::scene::{self, Workers, quoted};
+use crate::scene::{self, Workers};
 use pgrx::prelude::*;
 use pgrx::spi::SpiClient;
 use rayon::prelude::*;
 use row::Source;
 use solid::Solid;
+use std::sync::atomic::{AtomicBool, Ordering};
 use write::Writer;
 
 /// Rows read, computed and written together.
@@ -21,35 +22,31 @@ const BATCH: i64 = 1000;
 fn import_rows(scene: &str, source: &str, query: &str) -> i64 {
     scene::require(scene);
     let workers = Workers::start();
-    let first = next_feature(scene);
     let made = Spi::connect_mut(|client| {
         let cursor = client.open_cursor(query, &[]).detach_into_name();
         let writer = Writer::new(client, scene, source)?;
-        let mut made = 0;
+        let mut made = Vec::new();
         loop {
             let sources = fetch(client, &cursor)?;
             if sources.is_empty() {
                 return Ok::<_, pgrx::spi::Error>(made);
             }
-            let solids: Vec<Result<Solid, String>> =
-                workers.run(|_| sources.par_iter().map(Solid::of).collect());
-            made += writer.write(client, &sources, &solids)?;
+            let solids = workers.run(|cancelled| solids(&sources, cancelled));
+            made.extend(writer.write(client, &sources, &solids)?);
         }
     });
     let made = made.unwrap_or_else(|error| scene::failed(&error));
-    if made > 0 {
-        scene::settle(scene, first);
-    }
-    made
+    scene::settle(scene, &made);
+    scene::count(made.len())
 }
 
-/// A number that is below those of all features that are yet to come.
-fn next_feature(scene: &str) -> i64 {
-    let query = "SELECT pg_catalog.nextval(pg_catalog.pg_get_serial_sequence($1, 'id'))";
-    let table = format!("{}.feature", quoted(scene));
-    let next = Spi::get_one_with_args::<i64>(query, &[table.into()]);
-    next.unwrap_or_else(|error| scene::failed(&error))
-        .unwrap_or_default()
+/// The solids of rows. A cancelled batch ends soon and is thrown away.
+fn solids(sources: &[Source], cancelled: &AtomicBool) -> Vec<Result<Solid, String>> {
+    let solid = |source: &Source| match cancelled.load(Ordering::Relaxed) {
+        true => Err("cancelled".to_owned()),
+        false => Solid::of(source),
+    };
+    sources.par_iter().map(solid).collect()
 }
 
 fn fetch(client: &SpiClient<'_>, cursor: &str) -> Result<Vec<Source>, pgrx::spi::Error> {

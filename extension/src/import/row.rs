@@ -11,8 +11,8 @@ use pgrx::spi::SpiHeapTupleData;
 pub struct Source {
     /// Identifier, if it has one.
     pub name: Option<String>,
-    /// Kind of object.
-    pub class: Option<String>,
+    /// Kind of object, if it names one.
+    class: Option<String>,
     /// Attributes.
     pub attributes: Option<serde_json::Value>,
     /// What it is made of.
@@ -30,6 +30,11 @@ pub enum Shape {
 }
 
 impl Source {
+    /// Kind of object: a building where the row names none.
+    pub fn class(&self) -> &str {
+        self.class.as_deref().unwrap_or("Building")
+    }
+
     /// Takes a row apart.
     pub fn of(row: &SpiHeapTupleData) -> Result<Self, pgrx::spi::Error> {
         let rings: Option<Vec<Option<String>>> = row.get(4)?;

@@ -32,7 +32,8 @@ impl Solid {
                         .iter()
                         .map(|s| s.rings.iter().map(ring).collect::<Vec<Vec<_>>>()),
                 );
-                (engine::Solid::of(mesh, &ColumnOptions::default()), 2.0)
+                let options = ColumnOptions::default();
+                (engine::Solid::of(mesh, source.class(), &options), 2.0)
             }
             Shape::Nothing(why) => return Err(why.clone()),
         };

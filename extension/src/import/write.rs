@@ -95,27 +95,29 @@ impl Writer {
         })
     }
 
-    /// Writes what became of rows; returns how many became features.
+    /// Writes what became of rows; returns the numbers of those that became features.
     pub fn write(
         &self,
         client: &mut SpiClient<'_>,
         sources: &[Source],
         solids: &[Result<Solid, String>],
-    ) -> Spi<i64> {
-        let mut made = 0;
+    ) -> Spi<Vec<i64>> {
+        let mut made = Vec::with_capacity(sources.len());
         for (source, solid) in sources.iter().zip(solids) {
             match solid {
-                Ok(solid) => {
-                    self.write_feature(client, source, solid)?;
-                    made += 1;
-                }
+                Ok(solid) => made.extend(self.write_feature(client, source, solid)?),
                 Err(why) => self.write_remark(client, source, why)?,
             }
         }
         Ok(made)
     }
 
-    fn write_feature(&self, client: &mut SpiClient<'_>, source: &Source, solid: &Solid) -> Spi<()> {
+    fn write_feature(
+        &self,
+        client: &mut SpiClient<'_>,
+        source: &Source,
+        solid: &Solid,
+    ) -> Spi<Option<i64>> {
         let id: Option<i64> = client.update(&self.next, None, &[])?.first().get(1)?;
         let outline = solid
             .prism
@@ -127,7 +129,7 @@ impl Writer {
             &[
                 id.into(),
                 source.name.clone().into(),
-                class(source).into(),
+                source.class().into(),
                 Box3d(solid.envelope).into(),
                 outline.into(),
                 source.attributes.clone().map(JsonB).into(),
@@ -152,11 +154,7 @@ impl Writer {
                     .err()
                     .map(ToString::to_string)
                     .into(),
-                solid
-                    .solid
-                    .closed_at
-                    .map(|foot| format!("closed at its foot, {foot} m"))
-                    .into(),
+                solid.solid.repair().into(),
             ],
         )?;
         if let Ok(hides) = &solid.solid.hides {
@@ -176,24 +174,17 @@ impl Writer {
                 client.update(&self.solid_column, None, &row)?;
             }
         }
-        Ok(())
+        Ok(id)
     }
 
     fn write_remark(&self, client: &mut SpiClient<'_>, source: &Source, why: &str) -> Spi<()> {
         let row = [
             self.source.clone().into(),
             source.name.clone().unwrap_or_default().into(),
-            class(source).into(),
+            source.class().into(),
             why.into(),
         ];
         client.update(&self.remark, None, &row)?;
         Ok(())
     }
-}
-
-fn class(source: &Source) -> String {
-    source
-        .class
-        .clone()
-        .unwrap_or_else(|| "Building".to_owned())
 }

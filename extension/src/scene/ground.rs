@@ -2,7 +2,7 @@
 
 use super::{count, failed, quoted, require, run};
 use crate::types::Box3d;
-use engine::LocalGround;
+use engine::{LocalGround, is_building};
 use pgrx::Spi;
 use pgrx::iter::TableIterator;
 use pgrx::{name, pg_extern};
@@ -21,23 +21,23 @@ struct Standing {
 #[pg_extern(volatile, strict)]
 fn settle_ground(
     scene: &str,
-    first_feature: i64,
+    features: Vec<Option<i64>>,
 ) -> TableIterator<'static, (name!(aloft, i64), name!(opened, i64))> {
     require(scene);
-    TableIterator::once(settle(scene, first_feature))
+    let features: Vec<i64> = features.into_iter().flatten().collect();
+    TableIterator::once(settle(scene, &features))
 }
 
-/// Of the features from a number on, makes the solids of those that are not buildings on the ground
-/// ungrounded, and removes them where a bottom was added. Returns how many there are of each.
-pub fn settle(scene: &str, first_feature: i64) -> (i64, i64) {
+/// Of some features, makes the solids of those that are not buildings on the ground ungrounded, and
+/// removes them where a bottom was added. Returns how many there are of each.
+pub fn settle(scene: &str, features: &[i64]) -> (i64, i64) {
     let scene = quoted(scene);
     let ground = LocalGround::new(&envelopes(&scene));
     let hangs = |solid: &&Standing| {
-        let stands =
-            solid.class.starts_with("Building") && ground.holds(&solid.envelope, solid.foot);
+        let stands = is_building(&solid.class) && ground.holds(&solid.envelope, solid.foot);
         !stands
     };
-    let standing = standing(&scene, first_feature);
+    let standing = standing(&scene, features);
     let (open, aloft): (Vec<&Standing>, Vec<&Standing>) = standing
         .iter()
         .filter(hangs)
@@ -79,8 +79,8 @@ fn envelopes(scene: &str) -> Vec<engine::Box3d> {
         .collect()
 }
 
-/// The features from a number on that have a grounded solid, or a bottom that was added.
-fn standing(scene: &str, first_feature: i64) -> Vec<Standing> {
+/// Those of some features that have a grounded solid, or a bottom that was added.
+fn standing(scene: &str, features: &[i64]) -> Vec<Standing> {
     let query = format!(
         "SELECT f.id, f.class, f.envelope, least(s.foot, occlusion.z(occlusion.lower(i.box))), \
                 m.repair IS NOT NULL \
@@ -90,13 +90,13 @@ fn standing(scene: &str, first_feature: i64) -> Vec<Standing> {
                 ON s.feature OPERATOR(pg_catalog.=) f.id \
          LEFT JOIN {scene}.inner_envelope AS i ON i.feature OPERATOR(pg_catalog.=) f.id \
          LEFT JOIN {scene}.mesh AS m ON m.feature OPERATOR(pg_catalog.=) f.id \
-         WHERE f.id OPERATOR(pg_catalog.>=) $1 \
+         WHERE f.id OPERATOR(pg_catalog.=) ANY ($1) \
            AND (s.grounded OR i.grounded \
                 OR m.repair IS NOT NULL AND (s.feature IS NOT NULL OR i.feature IS NOT NULL))"
     );
     let standing = Spi::connect(|client| {
         client
-            .select(&query, None, &[first_feature.into()])?
+            .select(&query, None, &[features.to_vec().into()])?
             .map(|row| {
                 Ok((
                     row.get::<i64>(1)?,

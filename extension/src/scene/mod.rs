@@ -43,7 +43,7 @@ fn run(statement: &str, arguments: &[DatumWithOid]) {
 }
 
 /// A number of rows as SQL has it.
-fn count(number: usize) -> i64 {
+pub fn count(number: usize) -> i64 {
     i64::try_from(number).unwrap_or(i64::MAX)
 }
 

@@ -11,6 +11,10 @@ use crate::failure::{EXIT_STATUS, Failure};
 use crate::field_of_view::FieldOfView;
 use crate::terminal::{self, GOOD, grouped};
 
+/// Written out, since of the observer and `--all` just one is needed.
+const USAGE: &str = "occlusion export [OPTIONS] --observer <X,Y,Z> --output <FILE> <SCENE>
+       occlusion export [OPTIONS] --all --output <FILE> <SCENE>";
+
 const EXAMPLES: &str = "Examples:
   occlusion export delft --observer 85200,446800,1.7 -o visible.glb
   occlusion export delft --observer 85200,446800,1.7 --heading 45 --angle 90 -o street.wrl
@@ -21,7 +25,7 @@ const EXAMPLES: &str = "Examples:
 /// The file's name tells the format: .glb, .wrl (VRML97), .city.json, or .city.jsonl
 /// (CityJSONSeq).
 #[derive(Args, Debug)]
-#[command(after_help = format!("{EXAMPLES}\n\n{EXIT_STATUS}"))]
+#[command(override_usage = USAGE, after_help = format!("{EXAMPLES}\n\n{EXIT_STATUS}"))]
 pub struct Export {
     /// Scene
     scene: String,

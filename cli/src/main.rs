@@ -42,12 +42,12 @@ struct Arguments {
 
 #[derive(Subcommand, Debug)]
 enum Command {
-    Export(export::Export),
     Import(import::Import),
     Generate(generate::Generate),
     Query(query::Query),
     Verify(verify::Verify),
     Render(render::Render),
+    Export(export::Export),
 }
 
 fn main() -> ExitCode {
@@ -63,11 +63,11 @@ fn main() -> ExitCode {
 
 fn run(command: Command) -> Result<ExitCode, Failure> {
     match command {
-        Command::Export(export) => export.run()?,
         Command::Import(import) => import.run()?,
         Command::Generate(generate) => generate.run()?,
         Command::Query(query) => query.run()?,
         Command::Render(render) => render.run()?,
+        Command::Export(export) => export.run()?,
         Command::Verify(verify) if !verify.run()? => return Ok(FOUND_FAULTS.into()),
         Command::Verify(_) => {}
     }

@@ -34,7 +34,7 @@ const EXAMPLES: &str = "Examples:
 
 /// Proves that nothing visible is missing from the answers, or shows what is
 ///
-/// Every stored occlusion volume, inner and outer envelope is checked by exact arithmetic. From
+/// Every stored occlusion volume, solid column, inner and outer envelope is checked by exact arithmetic. From
 /// observers in the streets, half of them on corners and edges of volumes, the real meshes are drawn
 /// as cube maps of feature numbers, and rays are aimed at each feature that the answer left out.
 /// What is disputed is recast exactly.

@@ -72,7 +72,24 @@ WHERE s.name = 'shed' GROUP BY eye::text ORDER BY eye::text;
 
 -- Columns that change drop the volumes that their feature casts.
 SELECT count(*) FROM regress_import.occlusion_volume;
+BEGIN;
 UPDATE regress_import.solid_column SET top = 1.5 WHERE feature = (SELECT id FROM regress_import.feature WHERE name = 'wall');
+SELECT count(*) FROM regress_import.occlusion_volume;
+ROLLBACK;
+BEGIN;
+DELETE FROM regress_import.solid_column WHERE feature = (SELECT id FROM regress_import.feature WHERE name = 'wall');
+SELECT count(*) FROM regress_import.occlusion_volume;
+ROLLBACK;
+BEGIN;
+TRUNCATE regress_import.solid_column;
+SELECT count(*) FROM regress_import.occlusion_volume;
+ROLLBACK;
+-- A column more hides more: what was found stays right.
+INSERT INTO regress_import.solid_column (feature, footprint, bottom, top)
+SELECT id, '{"((85050,447000),(85060,447000),(85060,447000.3))"}', 0, 1 FROM regress_import.feature WHERE name = 'wall';
+SELECT count(*) FROM regress_import.occlusion_volume;
+-- Somebody else's columns change nothing here.
+UPDATE regress_import.solid_column SET top = 8 WHERE feature = (SELECT id FROM regress_import.feature WHERE name = 'plain');
 SELECT count(*) FROM regress_import.occlusion_volume;
 
 SELECT occlusion.drop_scene('regress_import');

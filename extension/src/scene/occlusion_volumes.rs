@@ -62,9 +62,9 @@ fn generate_occlusion_volumes(
     let mut told = 0;
     for (number, batch) in targets.chunks(BATCH).enumerate() {
         let mut volumes = workers.run(|cancelled| solve(&solver, batch, cancelled));
+        touch(scene);
         snapshot.drop_changed(scene, batch, &mut volumes);
         made += replace_volumes(scene, batch, &volumes);
-        touch(scene);
         let done = (number * BATCH + batch.len()).min(targets.len());
         job.advance(done, made);
         procedure.commit();
@@ -133,7 +133,8 @@ fn solve(solver: &VolumeSolver, batch: &[Target], cancelled: &AtomicBool) -> Vec
 }
 
 /// Updates the one row of `scene_info`, so that an edit whose snapshot is older than this batch
-/// fails rather than overlooks its volumes (`require_all_volumes` in `sql/40_scene.sql`).
+/// fails rather than overlooks its volumes (`require_all_volumes` in `sql/40_scene.sql`). Comes
+/// before all other locks of the batch: it is the only one that may have to wait for an edit.
 fn touch(scene: &str) {
     let scene = quoted(scene);
     run(
@@ -142,12 +143,17 @@ fn touch(scene: &str) {
     );
 }
 
-/// Replaces the volumes of a batch; returns how many there are now.
+/// Replaces the volumes of a batch; returns how many there are now. Old ones that an edit is about
+/// to drop are left to it: waiting for it could be a deadlock, and if it does not come to pass they
+/// are as right as they were.
 fn replace_volumes(scene: &str, batch: &[Target], volumes: &[OcclusionVolume]) -> i64 {
     let features: Vec<i64> = batch.iter().map(|(feature, _)| *feature).collect();
     run(
         &format!(
-            "DELETE FROM {}.occlusion_volume WHERE occludee OPERATOR(pg_catalog.=) ANY ($1)",
+            "DELETE FROM {0}.occlusion_volume WHERE occludee OPERATOR(pg_catalog.=) ANY ($1) \
+             AND ctid OPERATOR(pg_catalog.=) ANY (ARRAY( \
+                 SELECT ctid FROM {0}.occlusion_volume \
+                 WHERE occludee OPERATOR(pg_catalog.=) ANY ($1) FOR UPDATE SKIP LOCKED))",
             quoted(scene)
         ),
         &[features.into()],

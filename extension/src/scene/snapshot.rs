@@ -35,11 +35,12 @@ impl Snapshot {
         }
     }
 
-    /// Drops the volumes whose features have changed or gone meanwhile. The others' rows stay
-    /// locked until the commit, after which triggers take care of their volumes.
+    /// Drops the volumes whose features have changed or gone meanwhile, or are being edited. The
+    /// others' rows stay locked until the commit, after which triggers take care of their volumes.
+    /// It never waits for an edit, which may wait for it.
     pub fn drop_changed(&self, scene: &str, batch: &[Target], volumes: &mut Vec<OcclusionVolume>) {
         let names: Vec<i64> = batch.iter().map(|(feature, _)| *feature).collect();
-        let theirs = "OPERATOR(pg_catalog.=) ANY ($1) FOR SHARE";
+        let theirs = "OPERATOR(pg_catalog.=) ANY ($1) FOR SHARE SKIP LOCKED";
         let scene = quoted(scene);
         let envelopes: HashMap<i64, engine::Box3d> = targets(
             &format!("SELECT id, envelope FROM {scene}.feature WHERE id {theirs}"),

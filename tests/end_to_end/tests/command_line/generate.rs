@@ -1,4 +1,4 @@
-//! Ctrl-C, and what comes after it.
+//! Ctrl-C and what comes after it, and edits beside the work.
 
 use std::process::Command;
 use std::thread;
@@ -102,6 +102,31 @@ fn ctrl_c_stops_the_server_too() {
         "it took {took:?}"
     );
     assert_eq!(backends_at_work(&mut scene), 0);
+}
+
+#[test]
+fn what_is_taken_down_during_the_work_hides_nothing_after_it() {
+    let mut scene = busy("taken down");
+    let name = scene.name.clone();
+    let call = thread::spawn(move || {
+        occlusion(&["generate", &name, "--smallest", "10", "--range", "200"]).expect(0)
+    });
+    wait_for_first_batch(&mut scene);
+    // Of every other feature the box goes, and the column is cut down to a kerb.
+    scene.run(
+        "DELETE FROM {s}.inner_envelope WHERE feature % 2 = 0; \
+         UPDATE {s}.solid_column SET top = bottom + 0.1 WHERE feature % 2 = 0",
+    );
+    let began_again = scene.number("SELECT (total - done)::bigint FROM {s}.job");
+    assert!(began_again > 0, "the work was over before the edit");
+    call.join().unwrap();
+    let count = |scene: &mut TestScene, rest: i32| {
+        scene.number(&format!(
+            "SELECT count(*) FROM {{s}}.occlusion_volume WHERE occluder % 2 = {rest}"
+        ))
+    };
+    assert_eq!(count(&mut scene, 0), 0);
+    assert!(count(&mut scene, 1) > 0);
 }
 
 #[test]

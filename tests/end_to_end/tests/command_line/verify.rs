@@ -85,6 +85,43 @@ fn the_city_of_2004_passes() {
 }
 
 #[test]
+fn generated_cities_pass() {
+    for layout in ["blocks", "streets"] {
+        let mut scene = TestScene::new(layout);
+        let name = scene.name.clone();
+        scene.run(&format!(
+            "SELECT occlusion.generate_city('{name}', '{layout}', 150, 7)"
+        ));
+        occlusion(&["generate", &name, "--smallest", "4"]).expect(0);
+        let report = verify(&scene, "20").expect(0).json();
+        assert_eq!(report["false_occlusions"], 0, "{layout}: {report:#}");
+        let share = report["share_of_hidden_by_one"].as_f64().unwrap();
+        assert!(share > 0.5, "{layout}: {report:#}");
+    }
+}
+
+#[test]
+fn a_column_grown_by_a_centimetre_is_found() {
+    for change in [
+        "top = top + 0.01",
+        "bottom = bottom - 0.02",
+        "footprint = ARRAY[polygon(path(footprint[1]) + point(0.01, 0))]",
+    ] {
+        let mut scene = blocks("grown column");
+        scene.run(&format!(
+            "UPDATE {{s}}.solid_column SET {change} \
+             WHERE feature = (SELECT id FROM {{s}}.feature WHERE name = 'block 1 2')"
+        ));
+        let report = verify(&scene, "0").expect(1).json();
+        let fault = report["faults"][0]["fault"].as_str().unwrap();
+        assert!(
+            fault.contains("\"block 1 2\"") && fault.contains("solid column 1"),
+            "{change}: {fault}"
+        );
+    }
+}
+
+#[test]
 fn a_moved_volume_is_found() {
     let mut scene = blocks("moved volume");
     scene.run(&format!(

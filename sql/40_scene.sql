@@ -22,6 +22,7 @@ SET search_path = pg_catalog, pg_temp AS $$
         ('mesh', 'triangles', 'integer[]'),
         ('mesh', 'defect', 'text'),
         ('mesh', 'repair', 'text'),
+        ('mesh', 'repair_triangles', 'integer'),
         ('shape', 'digest', 'bytea'),
         ('shape', 'content', 'bytea'),
         ('model', 'feature', 'bigint'),
@@ -196,7 +197,8 @@ BEGIN
             vertices float8[] NOT NULL,
             triangles integer[] NOT NULL,
             defect text,
-            repair text
+            repair text,
+            repair_triangles integer NOT NULL DEFAULT 0 CHECK (repair_triangles >= 0)
         );
         COMMENT ON TABLE %1$s.mesh IS 'truth: the triangles of the best level of detail of each feature';
         COMMENT ON COLUMN %1$s.mesh.feature IS 'feature whose surface it is';
@@ -205,6 +207,7 @@ BEGIN
         COMMENT ON COLUMN %1$s.mesh.triangles IS 'three vertices a triangle, counted from 0, anticlockwise seen from outside';
         COMMENT ON COLUMN %1$s.mesh.defect IS 'why the mesh encloses no solid and so hides nothing; NULL if it does';
         COMMENT ON COLUMN %1$s.mesh.repair IS 'what was added to the delivered surface to close it; NULL if nothing was';
+        COMMENT ON COLUMN %1$s.mesh.repair_triangles IS 'how many of the last triangles were added';
 
         CREATE TABLE %1$s.inner_envelope (
             feature bigint PRIMARY KEY REFERENCES %1$s.feature ON DELETE CASCADE,

@@ -32,7 +32,7 @@ pub use mesh::{
 };
 pub use outer_prism::OuterPrism;
 pub use shadow_region::ShadowRegion;
-pub use solid::{Hides, Solid};
+pub use solid::{Hides, Repair, Solid};
 pub use solid_column::SolidColumn;
 pub use umbra::{OCCLUDER_MARGIN, Occluder, ShadowCaster};
 pub use view_region::{

@@ -1,5 +1,7 @@
 //! [`Solid`], a feature's surface with what hides others in it.
 
+use std::fmt::{self, Display, Formatter};
+
 use geo::{BoundingRect, Coord, Polygon};
 use glam::DVec3;
 
@@ -13,10 +15,25 @@ use crate::{
 pub struct Solid {
     /// The surface, closed at the foot where only its bottom was missing.
     pub mesh: TriangleMesh,
-    /// Height at which the surface was closed, if it was, metres.
-    pub closed_at: Option<f64>,
+    /// What was added to close it, if something was.
+    pub repair: Option<Repair>,
     /// What hides others, or why there is no such thing.
     pub hides: Result<Hides, MeshDefect>,
+}
+
+/// A bottom that was added to a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Repair {
+    /// Height of the bottom, metres.
+    pub foot: f64,
+    /// How many of the last triangles of the mesh it is.
+    pub triangles: usize,
+}
+
+impl Display for Repair {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "closed at its foot, {} m", self.foot)
+    }
 }
 
 /// What hides others.
@@ -35,22 +52,17 @@ impl Solid {
     #[must_use]
     pub fn of(mut mesh: TriangleMesh, class: &str, options: &ColumnOptions) -> Self {
         let cap = is_building(class).then(|| mesh.foot_cap()).flatten();
-        let closed_at = cap.and_then(|cap| {
+        let repair = cap.and_then(|cap| {
+            let triangles = cap.len();
             mesh.triangles.extend(cap);
-            Some(mesh.envelope()?.min.z)
+            let foot = mesh.envelope()?.min.z;
+            Some(Repair { foot, triangles })
         });
         Self {
             hides: Hides::of(&mesh, options),
-            closed_at,
+            repair,
             mesh,
         }
-    }
-
-    /// What was added to the delivered surface, in words.
-    #[must_use]
-    pub fn repair(&self) -> Option<String> {
-        let foot = self.closed_at?;
-        Some(format!("closed at its foot, {foot} m"))
     }
 
     /// Footprints raised from height `bottom` up to `top`, metres: a column each. The simple form is
@@ -81,7 +93,7 @@ impl Solid {
         };
         Ok(Self {
             mesh,
-            closed_at: None,
+            repair: None,
             hides: Ok(hides),
         })
     }

@@ -119,20 +119,17 @@ fn write_groups(
         line(f, label, &grouped(total))?;
     }
     for (reason, group) in groups {
-        let examples: Vec<String> = group
+        let names = group
             .examples
             .iter()
-            .map(|name| name.escape_debug().to_string())
-            .collect();
-        let more = if group.count > examples.len() {
-            ", …"
-        } else {
-            ""
-        };
+            .map(|name| name.escape_debug().to_string());
+        // A group may be known by its number alone.
+        let more = 0 < group.examples.len() && group.examples.len() < group.count;
+        let names: Vec<String> = names.chain(more.then(|| "…".to_owned())).collect();
         let text = format!(
-            "{} {FAINT}{}{more}{FAINT:#}",
+            "{} {FAINT}{}{FAINT:#}",
             grouped(group.count),
-            examples.join(", ")
+            names.join(", ")
         );
         line(f, &format!("  {reason}"), &text)?;
     }

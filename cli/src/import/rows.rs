@@ -93,13 +93,15 @@ fn meshes(
     ids: &[i64],
     solids: &[Solid],
 ) -> Result<(), Failure> {
-    let columns = "feature, level_of_detail, vertices, triangles, defect, repair";
+    let columns = "feature, level_of_detail, vertices, triangles, defect, repair, repair_triangles";
     let mut copy = Copy::begin(transaction, scene, "mesh", columns)?;
     for (id, solid) in ids.iter().zip(solids) {
         let level_of_detail = solid.level_of_detail;
         let solid = &solid.solid;
         let vertices = solid.mesh.vertices.iter().flat_map(|v| v.to_array());
         let numbers = solid.mesh.triangles.as_flattened().iter();
+        let added = solid.repair.map_or(0, |repair| repair.triangles);
+        let added = i32::try_from(added).unwrap_or(i32::MAX);
         copy.row(&[
             id,
             &level_of_detail,
@@ -108,7 +110,8 @@ fn meshes(
                 .map(|&number| number.cast_signed())
                 .collect::<Vec<i32>>(),
             &solid.hides.as_ref().err().map(ToString::to_string),
-            &solid.repair(),
+            &solid.repair.map(|repair| repair.to_string()),
+            &added,
         ])?;
     }
     copy.finish()

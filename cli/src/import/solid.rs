@@ -173,11 +173,16 @@ mod tests {
     #[test]
     fn a_missing_bottom_is_added() {
         let open = solid(vec![geometry(1.0, "a", block([0.0; 3], 10.0).split_off(1))]);
-        assert_eq!(open.solid.closed_at, Some(0.0));
+        assert_eq!(
+            open.solid
+                .repair
+                .map(|repair| (repair.foot, repair.triangles)),
+            Some((0.0, 2))
+        );
         assert_eq!(open.hides().unwrap().columns.columns.len(), 1);
         let unroofed = [0, 2, 3, 4, 5].map(|face| block([0.0; 3], 10.0)[face].clone());
         let unroofed = solid(vec![geometry(1.0, "a", unroofed.to_vec())]);
-        assert_eq!(unroofed.solid.closed_at, None);
+        assert_eq!(unroofed.solid.repair, None);
         assert!(unroofed.hides().is_none());
     }
 }

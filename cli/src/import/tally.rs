@@ -99,7 +99,7 @@ impl Tally {
 
     fn add_solid(&mut self, hides: &Hides, solid: &Solid) {
         self.solid += 1;
-        self.closed += usize::from(solid.solid.closed_at.is_some());
+        self.closed += usize::from(solid.solid.repair.is_some());
         let columns = &hides.columns;
         self.grounded += usize::from(hides.is_grounded());
         self.columns.push(columns.columns.len());

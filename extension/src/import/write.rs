@@ -7,8 +7,8 @@ use crate::types::Box3d;
 use pgrx::JsonB;
 use pgrx::PgOid;
 use pgrx::pg_sys::BuiltinOid::{
-    self, BOOLOID, FLOAT8ARRAYOID, FLOAT8OID, INT4ARRAYOID, INT8OID, JSONBOID, TEXTARRAYOID,
-    TEXTOID,
+    self, BOOLOID, FLOAT8ARRAYOID, FLOAT8OID, INT4ARRAYOID, INT4OID, INT8OID, JSONBOID,
+    TEXTARRAYOID, TEXTOID,
 };
 use pgrx::spi::{OwnedPreparedStatement, SpiClient};
 
@@ -60,8 +60,8 @@ impl Writer {
             mesh: prepare(
                 format!(
                     "INSERT INTO {scene}.mesh \
-                     (feature, level_of_detail, vertices, triangles, defect, repair) \
-                     VALUES ($1, $2, $3, $4, $5, $6)"
+                     (feature, level_of_detail, vertices, triangles, defect, repair, repair_triangles) \
+                     VALUES ($1, $2, $3, $4, $5, $6, $7)"
                 ),
                 &of(&[
                     INT8OID,
@@ -70,6 +70,7 @@ impl Writer {
                     INT4ARRAYOID,
                     TEXTOID,
                     TEXTOID,
+                    INT4OID,
                 ]),
             )?,
             inner_envelope: prepare(
@@ -139,6 +140,8 @@ impl Writer {
         let vertices: Vec<f64> = mesh.vertices.iter().flat_map(|v| v.to_array()).collect();
         let triangles = mesh.triangles.as_flattened().iter();
         let triangles: Vec<i32> = triangles.map(|&number| number.cast_signed()).collect();
+        let added = solid.solid.repair.map_or(0, |repair| repair.triangles);
+        let added = i32::try_from(added).unwrap_or(i32::MAX);
         client.update(
             &self.mesh,
             None,
@@ -154,7 +157,8 @@ impl Writer {
                     .err()
                     .map(ToString::to_string)
                     .into(),
-                solid.solid.repair().into(),
+                solid.solid.repair.map(|repair| repair.to_string()).into(),
+                added.into(),
             ],
         )?;
         if let Ok(hides) = &solid.solid.hides {

@@ -56,8 +56,10 @@ pub fn settle(scene: &str, features: &[i64]) -> (i64, i64) {
     }
     run(
         &format!(
-            "UPDATE {scene}.mesh SET defect = 'open: no bottom, and not on the ground' \
-             WHERE {theirs}"
+            "UPDATE {scene}.mesh SET defect = 'open: no bottom, and not on the ground', \
+             triangles = triangles[:pg_catalog.cardinality(triangles) \
+                 OPERATOR(pg_catalog.-) (3 OPERATOR(pg_catalog.*) repair_triangles)], \
+             repair = NULL, repair_triangles = 0 WHERE {theirs}"
         ),
         &[ids(&open).into()],
     );

@@ -111,6 +111,58 @@ fn skywalks_are_not_grounded() {
 }
 
 #[test]
+fn a_missing_bottom_is_added_on_the_ground_alone() {
+    let folder = tempdir().unwrap();
+    let text = City::default()
+        .block("west", [0.0, 0.0, 0.0], [10.0, 10.0, 20.0])
+        .block("walk", [10.0, 2.0, 6.0], [30.0, 8.0, 9.0])
+        .block("east", [30.0, 0.0, 0.0], [40.0, 10.0, 20.0])
+        .text();
+    // The bottoms of the western house and of the skywalk.
+    let open = text
+        .replace("[[0,4,5,1]],", "")
+        .replace("[[8,12,13,9]],", "");
+    assert_eq!(open.len() + 12 + 14, text.len());
+    let file = folder.path().join("open.city.json");
+    fs::write(&file, open).unwrap();
+    let mut scene = TestScene::new("bottoms");
+    let name = scene.name.clone();
+    let run = occlusion(&["import", file.to_str().unwrap(), "--scene", &name]).expect(0);
+    assert!(
+        run.stdout
+            .contains("2, 2 of them on solid ground, 1 closed"),
+        "{}",
+        run.stdout
+    );
+    let mesh = |of: &str, is: &str| {
+        format!(
+            "SELECT count(*) FROM {{s}}.mesh AS m JOIN {{s}}.feature AS f ON f.id = m.feature \
+             LEFT JOIN {{s}}.solid_column AS c ON c.feature = f.id WHERE f.name = '{of}' AND {is}"
+        )
+    };
+    for (of, is) in [
+        (
+            "west",
+            "defect IS NULL AND repair = 'closed at its foot, 0 m' AND repair_triangles = 2 \
+                  AND cardinality(triangles) = 36 AND c.grounded",
+        ),
+        (
+            "east",
+            "defect IS NULL AND repair IS NULL AND repair_triangles = 0 AND c.grounded",
+        ),
+        // What was added is gone again.
+        (
+            "walk",
+            "defect LIKE 'open:%' AND repair IS NULL AND repair_triangles = 0 \
+                  AND cardinality(triangles) = 30 AND c.feature IS NULL",
+        ),
+    ] {
+        assert_eq!(scene.number(&mesh(of, is)), 1, "{of}");
+    }
+    occlusion(&["verify", &name, "--observers", "4", "--resolution", "256"]).expect(0);
+}
+
+#[test]
 fn hostile_files_leave_nothing_behind() {
     let good = City::default().block("house", [0.0; 3], [5.0; 3]).text();
     let cases = [

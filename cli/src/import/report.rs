@@ -124,7 +124,7 @@ fn write_groups(
             .iter()
             .map(|name| name.escape_debug().to_string());
         // A group may be known by its number alone.
-        let more = 0 < group.examples.len() && group.examples.len() < group.count;
+        let more = !group.examples.is_empty() && group.examples.len() < group.count;
         let names: Vec<String> = names.chain(more.then(|| "…".to_owned())).collect();
         let text = format!(
             "{} {FAINT}{}{FAINT:#}",

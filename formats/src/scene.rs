@@ -92,6 +92,26 @@ pub struct Geometry {
 }
 
 impl Geometry {
+    /// Triangles in the frame of the scene.
+    pub fn of_triangles(
+        level_of_detail: f64,
+        triangles: impl IntoIterator<Item = [[f64; 3]; 3]>,
+    ) -> Self {
+        let surface = |corners: [[f64; 3]; 3]| Surface {
+            rings: vec![corners.to_vec()],
+            ..Surface::default()
+        };
+        Self {
+            level_of_detail,
+            part: None,
+            shape: Arc::new(Shape {
+                surfaces: triangles.into_iter().map(surface).collect(),
+                ..Shape::default()
+            }),
+            placement: None,
+        }
+    }
+
     /// The surfaces in the frame of the scene.
     pub fn surfaces(&self) -> Cow<'_, [Surface]> {
         match &self.placement {

@@ -103,12 +103,15 @@ fn check(written: &Feature, read: &Feature) {
     };
     assert_eq!(levels(written), levels(read));
     assert_eq!(
-        bits(delivered_positions(written)),
+        bits(delivered_positions(&written.geometries)),
         bits(positions(read)),
         "{}",
         written.name
     );
-    for (from, to) in positions(written).iter().zip(delivered_positions(written)) {
+    for (from, to) in positions(written)
+        .iter()
+        .zip(delivered_positions(&written.geometries))
+    {
         assert!(
             from.iter().zip(to).all(|(a, b)| (a - b).abs() < TOLERANCE),
             "{from:?} {to:?}"
@@ -237,9 +240,12 @@ fn instances_share_a_shape_unless_sheared() {
     assert!(!shapes[4..].contains(&shapes[0]));
     for (model, read) in models.iter().zip(&scene.features) {
         let (written, read) = (&model.feature, read);
-        assert_eq!(bits(delivered_positions(written)), bits(positions(read)));
+        assert_eq!(
+            bits(delivered_positions(&written.geometries)),
+            bits(positions(read))
+        );
         // A mirrored shape's rings are reversed, so the order is not the same.
-        let delivered: Vec<_> = delivered_positions(written).collect();
+        let delivered: Vec<_> = delivered_positions(&written.geometries).collect();
         for from in positions(written) {
             let near = |to: &[f64; 3]| from.iter().zip(to).all(|(a, b)| (a - b).abs() < TOLERANCE);
             assert!(delivered.iter().any(near), "{from:?}");
@@ -302,7 +308,7 @@ fn wide_features_stay_within_a_tenth_of_a_millimetre() {
         1,
         vec![geometry(shape(box_surfaces(FAR, [4000.0, 3333.3, 20.1])))],
     );
-    let delivered = delivered_positions(&bridge.feature);
+    let delivered = delivered_positions(&bridge.feature.geometries);
     let moved = positions(&bridge.feature).into_iter().zip(delivered);
     for (from, to) in moved {
         assert!(
@@ -313,7 +319,7 @@ fn wide_features_stay_within_a_tenth_of_a_millimetre() {
     let scene = round_trip(std::slice::from_ref(&bridge), None);
     assert_eq!(
         bits(positions(&scene.features[0])),
-        bits(delivered_positions(&bridge.feature))
+        bits(delivered_positions(&bridge.feature.geometries))
     );
 }
 

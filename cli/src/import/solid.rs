@@ -54,7 +54,7 @@ fn points(feature: &Feature) -> Vec<DVec3> {
         rings.flatten().copied().collect::<Vec<_>>()
     });
     exact
-        .chain(formats::delivered_positions(feature))
+        .chain(formats::delivered_positions(&feature.geometries))
         .map(DVec3::from)
         .collect()
 }

@@ -2,6 +2,7 @@
 
 use super::row::{Shape, Source};
 use engine::{Box3d, ColumnOptions, OuterPrism, TriangleMesh};
+use formats::Geometry;
 use glam::DVec3;
 
 /// A row turned into a solid.
@@ -37,12 +38,21 @@ impl Solid {
             }
             Shape::Nothing(why) => return Err(why.clone()),
         };
-        let envelope = solid.mesh.envelope().ok_or("no surface")?;
+        let points = points(&solid.mesh, level_of_detail);
         Ok(Self {
-            envelope,
-            prism: OuterPrism::around(solid.mesh.vertices.iter().copied()),
+            envelope: Box3d::around(points.iter().copied()).ok_or("no surface")?,
+            prism: OuterPrism::around(points),
             solid,
             level_of_detail,
         })
     }
+}
+
+/// Every vertex of a surface, and where a GLB rounds it to.
+fn points(mesh: &TriangleMesh, level_of_detail: f64) -> Vec<DVec3> {
+    let triangles = mesh.corners().map(|corners| corners.map(DVec3::into));
+    let delivered = Geometry::of_triangles(level_of_detail, triangles);
+    let delivered = formats::delivered_positions(std::slice::from_ref(&delivered));
+    let exact = mesh.vertices.iter().copied();
+    exact.chain(delivered.map(DVec3::from)).collect()
 }

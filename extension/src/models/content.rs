@@ -1,7 +1,7 @@
 //! Stored models, unpacked.
 
 use crate::error::Refusal;
-use formats::{Feature, Geometry, Placement, ReadOptions, Shape, Surface};
+use formats::{Feature, Geometry, Placement, ReadOptions};
 use pgrx::PgSqlErrorCode;
 use std::sync::Arc;
 
@@ -48,33 +48,20 @@ impl Content<'_> {
                 }
             }
             Self::Mesh(vertices, triangles) => {
-                feature.geometries = vec![Geometry {
-                    level_of_detail,
-                    part: None,
-                    shape: Arc::new(shape(vertices, triangles)),
-                    placement: None,
-                }];
+                let corners = corners(vertices, triangles);
+                feature.geometries = vec![Geometry::of_triangles(level_of_detail, corners)];
             }
         }
         Ok(())
     }
 }
 
-/// The triangles of a mesh as surfaces; those that name a vertex that is not there are left out.
-fn shape(vertices: &[f64], triangles: &[i32]) -> Shape {
+/// The corners of the triangles of a mesh; those that name a vertex that is not there are left out.
+fn corners(vertices: &[f64], triangles: &[i32]) -> impl Iterator<Item = [[f64; 3]; 3]> {
     let vertices = vertices.as_chunks::<3>().0;
-    let corner = |&number: &i32| vertices.get(usize::try_from(number).ok()?).copied();
-    let surfaces = triangles.as_chunks::<3>().0.iter().filter_map(|triangle| {
-        let ring: Option<Vec<[f64; 3]>> = triangle.iter().map(corner).collect();
-        Some(Surface {
-            rings: vec![ring?],
-            ..Surface::default()
-        })
-    });
-    Shape {
-        surfaces: surfaces.collect(),
-        ..Shape::default()
-    }
+    let vertex = |number: i32| vertices.get(usize::try_from(number).ok()?).copied();
+    let triangles = triangles.as_chunks::<3>().0.iter();
+    triangles.filter_map(move |&[a, b, c]| Some([vertex(a)?, vertex(b)?, vertex(c)?]))
 }
 
 fn damaged(feature: &Feature, why: &dyn std::fmt::Display) -> Refusal {

@@ -10,7 +10,7 @@
 use std::borrow::Cow;
 
 use crate::placement::Placement;
-use crate::scene::{Feature, Geometry, Surface};
+use crate::scene::{Geometry, Surface};
 
 /// Grid of positions, metres: rounding to it moves them by less than 0.01 mm. Within 2048 m of the
 /// origin f32 adds at most 0.06 mm, so that features up to 4 km wide are within 0.1 mm.
@@ -24,11 +24,11 @@ const TRANSLATION_GRID: f64 = 1.0 / 1_048_576.0;
 /// scale, not shear. The validator takes a matrix that is off by 5e-5.
 const MAX_COSINE: f64 = 1e-7;
 
-/// Positions at which a feature is delivered by [`write_glb`](crate::write_glb), to the bit: those
-/// of all vertices of all its geometries, whatever their level of detail. The outer envelope has to
-/// hold them.
-pub fn delivered_positions(feature: &Feature) -> impl Iterator<Item = [f64; 3]> {
-    feature.geometries.iter().flat_map(|geometry| {
+/// Positions at which the geometries of a feature are delivered by
+/// [`write_glb`](crate::write_glb), to the bit: those of all vertices, whatever their level of
+/// detail. The outer envelope has to hold them.
+pub fn delivered_positions(geometries: &[Geometry]) -> impl Iterator<Item = [f64; 3]> {
+    geometries.iter().flat_map(|geometry| {
         let delivery = Delivery::of(geometry);
         let positions = delivery.surfaces.iter().flat_map(|s| &s.rings).flatten();
         let delivered = |p: &[f64; 3]| {

@@ -42,7 +42,8 @@ COMMENT ON FUNCTION occlusion.distance(occlusion.point3d, occlusion.box3d) IS 'i
 
 CREATE OPERATOR occlusion.= (
     LEFTARG = occlusion.box3d, RIGHTARG = occlusion.box3d, FUNCTION = occlusion.equals,
-    COMMUTATOR = OPERATOR(occlusion.=), RESTRICT = eqsel, JOIN = eqjoinsel
+    COMMUTATOR = OPERATOR(occlusion.=), NEGATOR = OPERATOR(occlusion.<>),
+    RESTRICT = eqsel, JOIN = eqjoinsel, HASHES, MERGES
 );
 COMMENT ON OPERATOR occlusion.= (occlusion.box3d, occlusion.box3d) IS 'same corners';
 CREATE OPERATOR occlusion.~= (

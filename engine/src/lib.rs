@@ -4,12 +4,14 @@
 #![forbid(unsafe_code)]
 
 mod box3d;
+mod box_relation;
 mod city;
 mod columns;
 mod convex_pieces;
 mod convex_polygon;
 mod convex_prism;
 mod field_of_view;
+mod hilbert;
 mod mesh;
 mod outer_prism;
 mod predicates;
@@ -20,12 +22,14 @@ mod umbra;
 mod view_region;
 mod volumes;
 
+pub use box_relation::{BoxRange, BoxRelation};
 pub use box3d::Box3d;
 pub use city::{BoxCity, City, CityFeature, CityLayout, generated_city, scattered_city};
 pub use columns::{ColumnOptions, SolidColumns, solid_columns};
 pub use convex_pieces::{ConvexPieceOptions, convex_pieces};
 pub use convex_prism::ConvexPrism;
 pub use field_of_view::{ViewCone, ViewSector, in_range};
+pub use hilbert::hilbert_key;
 pub use mesh::{
     Closedness, Extrusion, GROUND_TOLERANCE, InnerEnvelope, MeshDefect, PolygonDefect,
     TriangleMesh, deviation, extruded, inner_envelope, triangulate,

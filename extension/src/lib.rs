@@ -3,6 +3,7 @@
 //! is written by hand in `sql/`; a function `f` here is the symbol `f_wrapper` there.
 
 mod error;
+mod field_of_view;
 mod import;
 mod index;
 mod models;

@@ -46,7 +46,7 @@ WHERE d.refclassid = 'pg_extension'::regclass AND d.deptype = 'e' AND t.descript
   AND NOT (d.classid = 'pg_type'::regclass AND EXISTS (SELECT FROM pg_type WHERE oid = d.objid AND typelem <> 0))
   AND d.classid <> 'pg_opfamily'::regclass
   AND NOT (d.classid = 'pg_proc'::regclass AND EXISTS (
-      SELECT FROM pg_proc WHERE oid = d.objid AND proname ~ '(_in|_out|_recv|_send|3d_gist_[a-z]+)$'))
+      SELECT FROM pg_proc WHERE oid = d.objid AND proname ~ '(_in|_out|_recv|_send|3d_(gist|spgist|brin)_[a-z_]+)$'))
 ORDER BY 1;
 
 -- How functions may be used: C and queries in parallel, nothing that writes declared stable.
@@ -61,6 +61,7 @@ SELECT proname FROM pg_proc
 WHERE pronamespace = 'occlusion'::regnamespace
   AND prolang <> (SELECT oid FROM pg_language WHERE lanname = 'c')
   AND prosqlbody IS NULL -- bound when it was created
+  AND prokind <> 'a'
   AND proconfig IS DISTINCT FROM '{"search_path=pg_catalog, pg_temp"}'
 ORDER BY proname;
 

@@ -1,52 +1,36 @@
 //! GiST for `box3d`: Guttman's R-tree with the keys as they are, so that a scan needs no recheck
 //! and may be index-only.
 
+use super::query::{Nearest, Query, read};
 use super::split::split;
-use crate::types::{Box3d, Point3d, Raw, ViewCone, ViewSector};
+use crate::types::{Box3d, Raw};
+use engine::BoxRange;
 use pgrx::{Internal, pg_extern, pg_sys};
-
-/// Strategy numbers of `sql/30_gist.sql`.
-mod strategy {
-    pub const OVERLAPS: i16 = 3;
-    pub const SAME: i16 = 6;
-    pub const CONTAINS: i16 = 7;
-    pub const CONTAINED_BY: i16 = 8;
-    pub const EQUALS: i16 = 18;
-    pub const DISTANCE_TO_POINT: i16 = 25;
-    pub const CONTAINS_POINT: i16 = 27;
-    pub const MEETS_CONE: i16 = 33;
-    pub const MEETS_SECTOR: i16 = 43;
-}
 
 /// Whether a subtree (or, at a leaf, a row) can satisfy the query; exact in every case.
 ///
 /// The query's SQL type follows from the strategy, so it comes as a bare pointer.
 #[pg_extern(immutable, strict, parallel_safe)]
 fn box3d_gist_consistent(
+    call: pg_sys::FunctionCallInfo,
     entry: Raw<pg_sys::GISTENTRY>,
     query: Raw<u8>,
     strategy: i16,
     _subtype: pg_sys::Oid,
     recheck: Raw<bool>,
 ) -> bool {
-    // SAFETY: GiST passes an entry of ours and a place for the answer.
-    let (key, leaf) = unsafe {
+    // SAFETY: GiST passes an entry of ours, a place for the answer, and an argument of the type
+    // that the operator class gives the strategy.
+    let (key, leaf, query) = unsafe {
         recheck.as_ptr().write(false);
         let entry = &*entry.as_ptr();
-        (key(entry), is_leaf(entry.page))
+        let query = Query::of(strategy.cast_unsigned(), query.as_ptr().into());
+        (key(entry), is_leaf(entry.page), query)
     };
-    match strategy {
-        strategy::OVERLAPS => key.overlaps(&argument::<Box3d>(&query).0),
-        strategy::SAME | strategy::EQUALS if leaf => key == argument::<Box3d>(&query).0,
-        strategy::SAME | strategy::EQUALS | strategy::CONTAINS => {
-            key.contains(&argument::<Box3d>(&query).0)
-        }
-        strategy::CONTAINED_BY if leaf => argument::<Box3d>(&query).0.contains(&key),
-        strategy::CONTAINED_BY => key.overlaps(&argument::<Box3d>(&query).0),
-        strategy::CONTAINS_POINT => key.contains_point(argument::<Point3d>(&query).0),
-        strategy::MEETS_CONE => argument::<ViewCone>(&query).in_radians().meets(&key),
-        strategy::MEETS_SECTOR => argument::<ViewSector>(&query).in_radians().meets(&key),
-        other => unknown(other),
+    if leaf {
+        query.holds(call, &key)
+    } else {
+        query.possible(call, &BoxRange::inside(&key))
     }
 }
 
@@ -59,14 +43,11 @@ fn box3d_gist_distance(
     _subtype: pg_sys::Oid,
     recheck: Raw<bool>,
 ) -> f64 {
-    // SAFETY: GiST passes an entry of ours and a place for the answer.
-    let key = unsafe {
+    // SAFETY: as for box3d_gist_consistent.
+    unsafe {
         recheck.as_ptr().write(false);
-        key(&*entry.as_ptr())
-    };
-    match strategy {
-        strategy::DISTANCE_TO_POINT => key.distance_to_point(argument::<Point3d>(&query).0),
-        _ => key.distance(&argument::<Box3d>(&query).0),
+        let nearest = Nearest::of(strategy.cast_unsigned(), query.as_ptr().into());
+        nearest.distance(&key(&*entry.as_ptr()))
     }
 }
 
@@ -142,8 +123,8 @@ fn box3d_gist_fetch(entry: Raw<pg_sys::GISTENTRY>) -> Internal {
 /// # Safety
 /// The entry's key must be a datum of type `box3d`.
 unsafe fn key(entry: &pg_sys::GISTENTRY) -> engine::Box3d {
-    // SAFETY: such a datum points to the box.
-    unsafe { entry.key.cast_mut_ptr::<engine::Box3d>().read() }
+    // SAFETY: as the caller says.
+    unsafe { read(entry.key) }
 }
 
 /// Whether a page of the index is a leaf.
@@ -155,12 +136,6 @@ unsafe fn is_leaf(page: pg_sys::Page) -> bool {
     let opaque =
         unsafe { &*pg_sys::PageGetSpecialPointer(page).cast::<pg_sys::GISTPageOpaqueData>() };
     u32::from(opaque.flags) & pg_sys::F_LEAF != 0
-}
-
-/// The query as the type that its strategy implies.
-fn argument<T: Copy>(query: &Raw<u8>) -> T {
-    // SAFETY: the operator class ties each strategy to one type, all passed by reference.
-    unsafe { query.as_ptr().cast::<T>().read() }
 }
 
 /// The boxes of a vector of entries, from slot `first` on.
@@ -216,12 +191,4 @@ unsafe fn boxed(keys: &[engine::Box3d], positions: &[usize]) -> pg_sys::Datum {
         room.write(around(&chosen));
         pg_sys::Datum::from(room)
     }
-}
-
-fn unknown(strategy: i16) -> ! {
-    crate::error::Refusal::new(
-        pgrx::PgSqlErrorCode::ERRCODE_INTERNAL_ERROR,
-        format!("unknown strategy number {strategy} for box3d"),
-    )
-    .raise()
 }

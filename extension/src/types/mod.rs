@@ -1,8 +1,10 @@
-//! The SQL types: fixed length, passed by reference, one file each.
+//! The SQL types: fixed length, passed by reference, one file each, or a folder.
 
+mod array;
 mod box3d;
 mod datum;
 mod number;
+mod ordering;
 mod point3d;
 mod text;
 mod view_cone;

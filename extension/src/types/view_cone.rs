@@ -2,6 +2,7 @@
 
 use super::datum::fixed_length_type;
 use super::number::{aperture, finite, pitch, range, shortest};
+use super::ordering::ordered_type;
 use super::text::Literal;
 use super::{Point3d, Raw, wire};
 use crate::error::{Refusal, or_raise};
@@ -17,7 +18,7 @@ const LITERAL: Literal = Literal {
 
 /// A cone of view as the user gave it: degrees and metres.
 #[repr(C)]
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct ViewCone {
     observer: Point3d,
     heading: f64,
@@ -27,6 +28,18 @@ pub struct ViewCone {
 }
 
 fixed_length_type!(ViewCone, "occlusion.view_cone");
+ordered_type!(
+    ViewCone,
+    view_cone_equals,
+    view_cone_differs,
+    view_cone_less,
+    view_cone_less_or_equal,
+    view_cone_greater_or_equal,
+    view_cone_greater,
+    view_cone_compare,
+    view_cone_hash,
+    view_cone_hash_extended
+);
 
 impl ViewCone {
     fn checked(n: [f64; 7]) -> Result<Self, Refusal> {
@@ -101,4 +114,24 @@ fn view_cone_make(
 #[pg_extern(immutable, strict, parallel_safe)]
 fn view_cone_observer(cone: ViewCone) -> Point3d {
     cone.observer
+}
+
+#[pg_extern(immutable, strict, parallel_safe)]
+fn view_cone_heading(cone: ViewCone) -> f64 {
+    cone.heading
+}
+
+#[pg_extern(immutable, strict, parallel_safe)]
+fn view_cone_angle(cone: ViewCone) -> f64 {
+    cone.angle
+}
+
+#[pg_extern(immutable, strict, parallel_safe)]
+fn view_cone_range(cone: ViewCone) -> f64 {
+    cone.range
+}
+
+#[pg_extern(immutable, strict, parallel_safe)]
+fn view_cone_pitch(cone: ViewCone) -> f64 {
+    cone.pitch
 }

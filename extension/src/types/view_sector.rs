@@ -2,6 +2,7 @@
 
 use super::datum::fixed_length_type;
 use super::number::{aperture, finite, range, shortest};
+use super::ordering::ordered_type;
 use super::text::Literal;
 use super::{Point3d, Raw, wire};
 use crate::error::{Refusal, or_raise};
@@ -17,7 +18,7 @@ const LITERAL: Literal = Literal {
 
 /// A sector of view as the user gave it: degrees and metres.
 #[repr(C)]
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct ViewSector {
     observer: Point3d,
     heading: f64,
@@ -26,6 +27,18 @@ pub struct ViewSector {
 }
 
 fixed_length_type!(ViewSector, "occlusion.view_sector");
+ordered_type!(
+    ViewSector,
+    view_sector_equals,
+    view_sector_differs,
+    view_sector_less,
+    view_sector_less_or_equal,
+    view_sector_greater_or_equal,
+    view_sector_greater,
+    view_sector_compare,
+    view_sector_hash,
+    view_sector_hash_extended
+);
 
 impl ViewSector {
     fn checked(n: [f64; 6]) -> Result<Self, Refusal> {
@@ -90,4 +103,19 @@ fn view_sector_make(observer: Point3d, heading: f64, angle: f64, range: f64) -> 
 #[pg_extern(immutable, strict, parallel_safe)]
 fn view_sector_observer(sector: ViewSector) -> Point3d {
     sector.observer
+}
+
+#[pg_extern(immutable, strict, parallel_safe)]
+fn view_sector_heading(sector: ViewSector) -> f64 {
+    sector.heading
+}
+
+#[pg_extern(immutable, strict, parallel_safe)]
+fn view_sector_angle(sector: ViewSector) -> f64 {
+    sector.angle
+}
+
+#[pg_extern(immutable, strict, parallel_safe)]
+fn view_sector_range(sector: ViewSector) -> f64 {
+    sector.range
 }

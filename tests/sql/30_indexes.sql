@@ -1,5 +1,6 @@
--- GiST: every answer by index is the one without it.
+-- GiST, SP-GiST and BRIN: every answer by index is the one without it.
 SET search_path = occlusion, public;
+
 -- Rows of every kind: scattered, a grid that touches, flat ones, the same box over and over, single
 -- points, huge coordinates. Spread by the golden ratio, so that they are the same everywhere.
 CREATE TEMPORARY TABLE indexed (id int, box box3d);
@@ -25,11 +26,13 @@ SELECT 60000 + i, box3d(point3d(-1e15 * i, 1e15 * i, -i), point3d(1e300, 1e15 * 
 INSERT INTO indexed VALUES (-1, NULL), (-2, NULL);
 CREATE INDEX indexed_box ON indexed USING gist (box);
 ANALYZE indexed;
+
 -- Each operator, with the queries to put to it.
 CREATE TEMPORARY TABLE query (number serial, condition text);
 INSERT INTO query (condition)
 SELECT format('box OPERATOR(occlusion.%s) %L::occlusion.box3d', operator, box)
-FROM (VALUES ('&&'), ('@>'), ('<@'), ('~='), ('=')) AS o (operator),
+FROM (VALUES ('&&'), ('@>'), ('<@'), ('~='), ('='), ('<<'), ('&<'), ('&>'), ('>>'), ('<<|'), ('&<|'), ('|&>'), ('|>>'),
+             ('<</'), ('&</'), ('/&>'), ('/>>')) AS o (operator),
      (VALUES ('BOX3D(100 100 0, 110 110 10)'), ('BOX3D(105 105 5, 105 105 5)'), ('BOX3D(90 90 0, 130 130 20)'),
              ('BOX3D(7 7 7, 7 7 7)'), ('BOX3D(250 0 0, 250 1000 50)'), ('BOX3D(400 100 0, 500 200 10)'),
              ('BOX3D(-50 -50 -50, -1 -1 -1)'), ('BOX3D(85000 447000 0, 85020 447007.25 30)'),
@@ -49,6 +52,7 @@ SELECT format('box OPERATOR(occlusion.&&) %L::occlusion.view_sector', sector)
 FROM (VALUES ('VIEW_SECTOR(500 500 1.75, 45, 60, 200)'), ('VIEW_SECTOR(110 110 10, 225, 1, 5)'),
              ('VIEW_SECTOR(85500 447300 1.75, 300, 90, 100)'), ('VIEW_SECTOR(0 0 -5, 0, 60, 4)'),
              ('VIEW_SECTOR(500 500 1.75, 45, 200, 1e6)')) AS s (sector);
+
 -- The rows of a statement, as one array, and the scan nodes of its plan.
 CREATE FUNCTION pg_temp.rows_of(statement text, by_index boolean) RETURNS int[] LANGUAGE plpgsql AS $$
 DECLARE
@@ -57,7 +61,8 @@ BEGIN
     PERFORM set_config('enable_seqscan', CASE WHEN by_index THEN 'off' ELSE 'on' END, true);
     PERFORM set_config('enable_indexscan', CASE WHEN by_index THEN 'on' ELSE 'off' END, true);
     PERFORM set_config('enable_indexonlyscan', CASE WHEN by_index THEN 'on' ELSE 'off' END, true);
-    PERFORM set_config('enable_bitmapscan', 'off', true);
+    -- BRIN knows no other scan.
+    PERFORM set_config('enable_bitmapscan', CASE WHEN by_index THEN 'on' ELSE 'off' END, true);
     EXECUTE format('SELECT array_agg(q.id) FROM (%s) AS q', statement) INTO rows;
     RETURN rows;
 END
@@ -73,28 +78,41 @@ BEGIN
     END LOOP;
 END
 $$;
-CREATE FUNCTION pg_temp.answers() RETURNS TABLE (operator text, queries bigint, t boolean, found boolean)
+
+-- Whether the index, and nothing else, is what answers when it may.
+CREATE FUNCTION pg_temp.uses_index(statement text) RETURNS boolean LANGUAGE plpgsql AS $$
+BEGIN
+    PERFORM pg_temp.rows_of(statement, true); -- leaves the settings of a scan by index
+    RETURN (SELECT bool_or(scan ~ 'Scan (using|on) indexed_box') AND NOT bool_or(scan ~ 'Seq Scan')
+            FROM pg_temp.scans(statement) AS scan);
+END
+$$;
+-- For each operator: whether every answer is right, whether all were by index, and whether some found anything.
+CREATE FUNCTION pg_temp.answers() RETURNS TABLE (operator text, queries bigint, t boolean, by_index boolean, found boolean)
 LANGUAGE sql AS $$
     SELECT substring(condition FROM 'OPERATOR\(occlusion\.(.+?)\)') || ' ' || substring(condition FROM '[a-z0-9_]+$'),
            count(*),
            bool_and(pg_temp.rows_of(statement, true) IS NOT DISTINCT FROM pg_temp.rows_of(statement, false)),
+           bool_and(pg_temp.uses_index(statement)),
            count(pg_temp.rows_of(statement, true)) > 0
     FROM query
     CROSS JOIN LATERAL (SELECT format('SELECT id FROM indexed WHERE %s ORDER BY id', condition)) AS s (statement)
     GROUP BY 1 ORDER BY 1
 $$;
+CREATE FUNCTION pg_temp.build(method text) RETURNS void LANGUAGE plpgsql AS $$
+BEGIN
+    DROP INDEX IF EXISTS indexed_box;
+    -- Small ranges of blocks, so that BRIN has something to leave out.
+    EXECUTE format('CREATE INDEX indexed_box ON indexed USING %s (box) %s', method,
+                   CASE method WHEN 'brin' THEN 'WITH (pages_per_range = 1)' ELSE '' END);
+END
+$$;
 SELECT * FROM pg_temp.answers();
-    operator    | queries | t | found 
-----------------+---------+---+-------
- && box3d       |      10 | t | t
- && view_cone   |       5 | t | t
- && view_sector |       5 | t | t
- <@ box3d       |      10 | t | t
- = box3d        |      10 | t | t
- @> box3d       |      10 | t | t
- @> point3d     |       7 | t | t
- ~= box3d       |      10 | t | t
-(8 rows)
+SELECT pg_temp.build('spgist');
+SELECT * FROM pg_temp.answers();
+SELECT pg_temp.build('brin');
+SELECT * FROM pg_temp.answers();
+SELECT pg_temp.build('gist');
 
 -- The index is what answers, unprompted where it is worth it.
 SET enable_bitmapscan = off;
@@ -104,48 +122,19 @@ FROM (VALUES ($$&& 'BOX3D(1 1 1, 2 2 2)'::box3d$$), ($$@> 'BOX3D(1 1 1, 2 2 2)':
              ($$= 'BOX3D(1 1 1, 2 2 2)'::box3d$$), ($$@> 'POINT(1 1 1)'::point3d$$),
              ($$&& 'VIEW_CONE(0 0 0, 0, 60, 5, 0)'::view_cone$$), ($$&& 'VIEW_SECTOR(0 0 0, 0, 60, 5)'::view_sector$$)
      ) AS c (condition);
-                  scans                  
------------------------------------------
- Index Scan using indexed_box on indexed
- Index Scan using indexed_box on indexed
- Index Scan using indexed_box on indexed
- Index Scan using indexed_box on indexed
- Index Scan using indexed_box on indexed
- Index Scan using indexed_box on indexed
- Index Scan using indexed_box on indexed
- Index Scan using indexed_box on indexed
-(8 rows)
-
 -- Commuted too.
 SELECT pg_temp.scans(format('SELECT * FROM indexed WHERE %s box', condition))
 FROM (VALUES ($$'POINT(1 1 1)'::point3d <@$$), ($$'VIEW_CONE(0 0 0, 0, 60, 5, 0)'::view_cone &&$$),
              ($$'VIEW_SECTOR(0 0 0, 0, 60, 5)'::view_sector &&$$), ($$'BOX3D(1 1 1, 2 2 2)'::box3d <@$$)) AS c (condition);
-                  scans                  
------------------------------------------
- Index Scan using indexed_box on indexed
- Index Scan using indexed_box on indexed
- Index Scan using indexed_box on indexed
- Index Scan using indexed_box on indexed
-(4 rows)
-
 RESET enable_bitmapscan;
 SET enable_indexscan = off;
 SET enable_indexonlyscan = off;
 SELECT pg_temp.scans($$SELECT * FROM indexed WHERE box && 'BOX3D(1 1 1, 2 2 2)'::box3d$$);
-              scans               
-----------------------------------
- Bitmap Heap Scan on indexed
- Bitmap Index Scan on indexed_box
-(2 rows)
-
 RESET ALL;
 SET search_path = occlusion, public;
+
 -- NULLs are in the index.
 SELECT pg_temp.rows_of('SELECT id FROM indexed WHERE box IS NULL ORDER BY id', true) = '{-2,-1}' AS t;
- t 
----
- t
-(1 row)
 
 -- Nearest first.
 CREATE FUNCTION pg_temp.nearest(target text, most int) RETURNS TABLE (t boolean, complete boolean) LANGUAGE plpgsql AS $$
@@ -171,56 +160,29 @@ FROM (VALUES ($$'POINT(105 105 5)'::occlusion.point3d$$), ($$'POINT(-50 1200 3)'
              ($$'POINT(85500 447300 1.75)'::occlusion.point3d$$), ($$'POINT(1e15 1e15 0)'::occlusion.point3d$$),
              ($$'BOX3D(105 105 5, 300 300 10)'::occlusion.box3d$$), ($$'BOX3D(-9 -9 -9, -8 -8 -8)'::occlusion.box3d$$)
      ) AS q (target), LATERAL pg_temp.nearest(target, 10000) AS n;
-                     target                      | t | complete 
--------------------------------------------------+---+----------
- 'POINT(105 105 5)'::occlusion.point3d           | t | t
- 'POINT(-50 1200 3)'::occlusion.point3d          | t | t
- 'POINT(85500 447300 1.75)'::occlusion.point3d   | t | t
- 'POINT(1e15 1e15 0)'::occlusion.point3d         | t | t
- 'BOX3D(105 105 5, 300 300 10)'::occlusion.box3d | t | t
- 'BOX3D(-9 -9 -9, -8 -8 -8)'::occlusion.box3d    | t | t
-(6 rows)
-
+SELECT pg_temp.build('spgist');
+SELECT bool_and(n.t AND n.complete) AS t
+FROM (VALUES ($$'POINT(105 105 5)'::occlusion.point3d$$), ($$'POINT(-50 1200 3)'::occlusion.point3d$$),
+             ($$'POINT(85500 447300 1.75)'::occlusion.point3d$$), ($$'POINT(1e15 1e15 0)'::occlusion.point3d$$),
+             ($$'BOX3D(105 105 5, 300 300 10)'::occlusion.box3d$$), ($$'BOX3D(-9 -9 -9, -8 -8 -8)'::occlusion.box3d$$)
+     ) AS q (target), LATERAL pg_temp.nearest(target, 10000) AS n;
+SELECT pg_temp.build('gist');
 BEGIN;
 SET LOCAL enable_seqscan = off;
 SELECT pg_temp.scans($$SELECT id FROM indexed ORDER BY box <-> 'POINT(105 105 5)'::point3d LIMIT 5$$);
-                  scans                  
------------------------------------------
- Index Scan using indexed_box on indexed
-(1 row)
-
 SELECT pg_temp.scans($$SELECT id FROM indexed ORDER BY 'POINT(105 105 5)'::point3d <-> box LIMIT 5$$);
-                  scans                  
------------------------------------------
- Index Scan using indexed_box on indexed
-(1 row)
-
 SELECT pg_temp.scans($$SELECT id FROM indexed ORDER BY box <-> 'BOX3D(1 1 1, 2 2 2)'::box3d LIMIT 5$$);
-                  scans                  
------------------------------------------
- Index Scan using indexed_box on indexed
-(1 row)
-
 -- With a condition on the same index.
 SELECT pg_temp.scans($$SELECT id FROM indexed WHERE box && 'BOX3D(0 0 0, 90 90 90)'::box3d
                        ORDER BY box <-> 'POINT(105 105 5)'::point3d LIMIT 5$$);
-                  scans                  
------------------------------------------
- Index Scan using indexed_box on indexed
-(1 row)
-
 COMMIT;
+
 -- The index alone returns the boxes as they are.
 VACUUM (ANALYZE) indexed;
 BEGIN;
 SET LOCAL enable_seqscan = off;
 SET LOCAL enable_bitmapscan = off;
 SELECT pg_temp.scans($$SELECT box FROM indexed WHERE box && 'BOX3D(0 0 0, 120 120 90)'::box3d$$);
-                    scans                     
-----------------------------------------------
- Index Only Scan using indexed_box on indexed
-(1 row)
-
 CREATE TEMPORARY TABLE from_index AS SELECT box::text FROM indexed WHERE box && 'BOX3D(0 0 0, 120 120 90)'::box3d;
 SET LOCAL enable_indexonlyscan = off;
 SET LOCAL enable_indexscan = off;
@@ -230,18 +192,9 @@ SELECT count(*) = 0 AS t FROM (
     UNION ALL
     (SELECT box::text FROM indexed WHERE box && 'BOX3D(0 0 0, 120 120 90)'::box3d EXCEPT ALL TABLE from_index)
 ) AS different;
- t 
----
- t
-(1 row)
-
 SELECT count(*) > 1000 AS t FROM from_index;
- t 
----
- t
-(1 row)
-
 COMMIT;
+
 -- Joins by index.
 BEGIN;
 SET LOCAL enable_hashjoin = off;
@@ -250,11 +203,6 @@ CREATE TEMPORARY TABLE by_loop AS
 SELECT a.id AS a, b.id AS b FROM indexed AS a, indexed AS b WHERE a.id BETWEEN 50000 AND 59999 AND a.box && b.box;
 SELECT count(*) FILTER (WHERE scan ~ 'Index') > 0 AS t
 FROM pg_temp.scans('SELECT * FROM indexed AS a, indexed AS b WHERE a.id BETWEEN 50000 AND 59999 AND a.box && b.box') AS scan;
- t 
----
- t
-(1 row)
-
 SET LOCAL enable_indexscan = off;
 SET LOCAL enable_indexonlyscan = off;
 SET LOCAL enable_bitmapscan = off;
@@ -262,80 +210,93 @@ SELECT count(*) = (SELECT count(*) FROM by_loop) AND count(l.a) = count(*) AND c
 FROM (SELECT a.id AS a, b.id AS b FROM indexed AS a, indexed AS b
       WHERE a.id BETWEEN 50000 AND 59999 AND a.box && b.box) AS plain
 LEFT JOIN by_loop AS l ON l.a = plain.a AND l.b = plain.b;
- t 
----
- t
-(1 row)
-
 COMMIT;
--- After rows came, went and moved, and vacuum.
+
+-- After rows came, went and moved, and vacuum; an index that starts empty, and one over nothing but duplicates.
+CREATE TABLE pg_temp.original AS TABLE indexed;
+CREATE FUNCTION pg_temp.right() RETURNS boolean LANGUAGE sql AS $$
+    SELECT bool_and(t AND by_index) FROM pg_temp.answers()
+$$;
+CREATE FUNCTION pg_temp.right_and_empty() RETURNS boolean LANGUAGE sql AS $$
+    SELECT bool_and(t) AND NOT bool_or(found) FROM pg_temp.answers()
+$$;
+-- gist
+SELECT pg_temp.build('gist');
 INSERT INTO indexed
 SELECT 70000 + i, box3d(point3d(x, y, 0), point3d(x + 3, y + 3, 3))
 FROM generate_series(1, 3000) AS i
 CROSS JOIN LATERAL (SELECT i % 60 * 3 + 100 AS x, i / 60 * 3 + 100 AS y) AS p;
 UPDATE indexed SET box = expand(box, 1) WHERE id % 5 = 0 AND id BETWEEN 1 AND 59999;
 DELETE FROM indexed WHERE id % 3 = 0;
-SELECT bool_and(t) AS t FROM pg_temp.answers();
- t 
----
- t
-(1 row)
-
+SELECT pg_temp.right() AS t;
 VACUUM indexed;
-SELECT bool_and(t) AS t FROM pg_temp.answers();
- t 
----
- t
-(1 row)
-
+SELECT pg_temp.right() AS t;
 INSERT INTO indexed SELECT id + 100000, box FROM indexed WHERE id > 0;
-SELECT bool_and(t) AS t FROM pg_temp.answers();
- t 
----
- t
-(1 row)
-
+SELECT pg_temp.right() AS t;
 REINDEX INDEX indexed_box;
-SELECT bool_and(t) AS t FROM pg_temp.answers();
- t 
----
- t
-(1 row)
-
--- An index that starts empty, and one over nothing but duplicates.
+SELECT pg_temp.right() AS t;
 TRUNCATE indexed;
-SELECT bool_and(t) AND NOT bool_or(found) AS t FROM pg_temp.answers();
- t 
----
- t
-(1 row)
-
+SELECT pg_temp.right_and_empty() AS t;
 INSERT INTO indexed SELECT i, 'BOX3D(100 100 0, 110 110 10)' FROM generate_series(1, 3000) AS i;
-SELECT bool_and(t) AND bool_or(found) AS t FROM pg_temp.answers();
- t 
----
- t
-(1 row)
-
+SELECT pg_temp.right() AS t;
 DELETE FROM indexed;
 VACUUM indexed;
-SELECT bool_and(t) AND NOT bool_or(found) AS t FROM pg_temp.answers();
- t 
----
- t
-(1 row)
+SELECT pg_temp.right_and_empty() AS t;
+INSERT INTO indexed TABLE pg_temp.original;
+-- spgist
+SELECT pg_temp.build('spgist');
+INSERT INTO indexed
+SELECT 70000 + i, box3d(point3d(x, y, 0), point3d(x + 3, y + 3, 3))
+FROM generate_series(1, 3000) AS i
+CROSS JOIN LATERAL (SELECT i % 60 * 3 + 100 AS x, i / 60 * 3 + 100 AS y) AS p;
+UPDATE indexed SET box = expand(box, 1) WHERE id % 5 = 0 AND id BETWEEN 1 AND 59999;
+DELETE FROM indexed WHERE id % 3 = 0;
+SELECT pg_temp.right() AS t;
+VACUUM indexed;
+SELECT pg_temp.right() AS t;
+INSERT INTO indexed SELECT id + 100000, box FROM indexed WHERE id > 0;
+SELECT pg_temp.right() AS t;
+REINDEX INDEX indexed_box;
+SELECT pg_temp.right() AS t;
+TRUNCATE indexed;
+SELECT pg_temp.right_and_empty() AS t;
+INSERT INTO indexed SELECT i, 'BOX3D(100 100 0, 110 110 10)' FROM generate_series(1, 3000) AS i;
+SELECT pg_temp.right() AS t;
+DELETE FROM indexed;
+VACUUM indexed;
+SELECT pg_temp.right_and_empty() AS t;
+INSERT INTO indexed TABLE pg_temp.original;
+-- brin
+SELECT pg_temp.build('brin');
+INSERT INTO indexed
+SELECT 70000 + i, box3d(point3d(x, y, 0), point3d(x + 3, y + 3, 3))
+FROM generate_series(1, 3000) AS i
+CROSS JOIN LATERAL (SELECT i % 60 * 3 + 100 AS x, i / 60 * 3 + 100 AS y) AS p;
+UPDATE indexed SET box = expand(box, 1) WHERE id % 5 = 0 AND id BETWEEN 1 AND 59999;
+DELETE FROM indexed WHERE id % 3 = 0;
+SELECT pg_temp.right() AS t;
+VACUUM indexed;
+SELECT pg_temp.right() AS t;
+INSERT INTO indexed SELECT id + 100000, box FROM indexed WHERE id > 0;
+SELECT pg_temp.right() AS t;
+REINDEX INDEX indexed_box;
+SELECT pg_temp.right() AS t;
+TRUNCATE indexed;
+SELECT pg_temp.right_and_empty() AS t;
+INSERT INTO indexed SELECT i, 'BOX3D(100 100 0, 110 110 10)' FROM generate_series(1, 3000) AS i;
+SELECT pg_temp.right() AS t;
+DELETE FROM indexed;
+VACUUM indexed;
+SELECT pg_temp.right_and_empty() AS t;
+INSERT INTO indexed TABLE pg_temp.original;
 
 -- The catalog agrees that the operator class is sound, and that it is the default.
-SELECT amvalidate(oid) AS t, opcdefault AS t FROM pg_opclass WHERE opcname = 'box3d_ops';
- t | t 
----+---
- t | t
-(1 row)
-
+SELECT a.amname, c.opcname, amvalidate(c.oid) AS t, c.opcdefault AS t
+FROM pg_opclass AS c JOIN pg_am AS a ON a.oid = c.opcmethod
+WHERE c.opcnamespace = 'occlusion'::regnamespace ORDER BY 1, 2;
+SELECT pg_temp.build('gist');
 SELECT bool_and(pg_index_column_has_property('indexed_box', 1, property)) AS t
 FROM (VALUES ('distance_orderable'), ('returnable'), ('search_nulls')) AS p (property);
- t 
----
- t
-(1 row)
-
+SELECT pg_temp.build('spgist');
+SELECT bool_and(pg_index_column_has_property('indexed_box', 1, property)) AS t
+FROM (VALUES ('distance_orderable'), ('returnable'), ('search_nulls')) AS p (property);

@@ -1,0 +1,79 @@
+//! [`FieldOfView`], what an observer looks at, as a value of one of several SQL types.
+
+use crate::types::{ViewCone, ViewSector};
+use engine::Box3d;
+use pgrx::pg_sys;
+
+/// What an observer looks at, as the user gave it.
+#[derive(Clone, Copy, PartialEq)]
+pub enum FieldOfView {
+    /// A circular cone.
+    Cone(ViewCone),
+    /// A horizontal sector of any pitch.
+    Sector(ViewSector),
+}
+
+/// The same, ready to be compared with many boxes.
+#[derive(Clone, Copy)]
+pub enum Prepared {
+    /// A circular cone.
+    Cone(engine::ViewCone),
+    /// A horizontal sector of any pitch.
+    Sector(engine::ViewSector),
+}
+
+impl FieldOfView {
+    fn prepared(&self) -> Prepared {
+        match self {
+            Self::Cone(cone) => Prepared::Cone(cone.in_radians()),
+            Self::Sector(sector) => Prepared::Sector(sector.in_radians()),
+        }
+    }
+}
+
+impl Prepared {
+    /// Whether it shares a point with a box.
+    pub fn meets(&self, target: &Box3d) -> bool {
+        match self {
+            Self::Cone(cone) => cone.meets(target),
+            Self::Sector(sector) => sector.meets(target),
+        }
+    }
+}
+
+/// What a call site remembers from one call to the next.
+struct Remembered {
+    field_of_view: FieldOfView,
+    prepared: Prepared,
+}
+
+/// Calls `test` with the field of view prepared. It is prepared once for all calls of one call site
+/// in a row that have the same one, as those of a scan have.
+pub fn with_prepared<T>(
+    call: pg_sys::FunctionCallInfo,
+    field_of_view: FieldOfView,
+    test: impl FnOnce(&Prepared) -> T,
+) -> T {
+    // SAFETY: a function is called with its call site's data, if it has one; `fn_extra` is ours to
+    // use, null at first, and what it points to lives in `fn_mcxt` as long as the call site.
+    let remembered = unsafe {
+        let Some(site) = call.as_ref().and_then(|call| call.flinfo.as_mut()) else {
+            return test(&field_of_view.prepared());
+        };
+        let remember = || Remembered {
+            field_of_view,
+            prepared: field_of_view.prepared(),
+        };
+        if site.fn_extra.is_null() {
+            let room = pg_sys::MemoryContextAlloc(site.fn_mcxt, size_of::<Remembered>());
+            room.cast::<Remembered>().write(remember());
+            site.fn_extra = room;
+        }
+        let remembered = &mut *site.fn_extra.cast::<Remembered>();
+        if remembered.field_of_view != field_of_view {
+            *remembered = remember();
+        }
+        remembered
+    };
+    test(&remembered.prepared)
+}

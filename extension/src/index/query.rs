@@ -1,0 +1,168 @@
+//! [`Query`], what an index on `box3d` is asked for.
+
+use crate::error::Refusal;
+use crate::field_of_view::{FieldOfView, with_prepared};
+use crate::types::{Box3d, Point3d, ViewCone, ViewSector};
+use engine::{BoxRange, BoxRelation};
+use glam::DVec3;
+use pgrx::{IntoDatum, PgSqlErrorCode, pg_sys};
+
+/// Strategy numbers of the operator classes, the same for every kind of index. Those of boxes are
+/// core's, as far as core knows them. An operator with another right side has one of its own, so
+/// that the number says what the argument is.
+mod strategy {
+    pub const BEFORE: [u16; 3] = [1, 10, 30];
+    pub const NOT_AFTER: [u16; 3] = [2, 9, 29];
+    pub const NOT_BEFORE: [u16; 3] = [4, 12, 32];
+    pub const AFTER: [u16; 3] = [5, 11, 31];
+    pub const OVERLAPS: u16 = 3;
+    pub const SAME: u16 = 6;
+    pub const CONTAINS: u16 = 7;
+    pub const CONTAINED_BY: u16 = 8;
+    pub const DISTANCE: u16 = 15;
+    pub const EQUALS: u16 = 18;
+    pub const DISTANCE_TO_POINT: u16 = 25;
+    pub const CONTAINS_POINT: u16 = 27;
+    pub const MEETS_CONE: u16 = 33;
+    pub const MEETS_SECTOR: u16 = 43;
+}
+
+/// What a scan looks for.
+pub enum Query {
+    /// Boxes that lie so to a given one.
+    Boxes(BoxRelation, engine::Box3d),
+    /// Boxes that share a point with a field of view.
+    InView(FieldOfView),
+}
+
+impl Query {
+    /// What an operator's strategy number and its right argument ask for.
+    ///
+    /// # Safety
+    /// The argument must be of the type that the operator class gives the strategy.
+    pub unsafe fn of(strategy: u16, argument: pg_sys::Datum) -> Self {
+        // SAFETY: all these types are passed by reference, and the caller vouches for which it is.
+        unsafe {
+            if let Some(relation) = relation(strategy) {
+                return Self::Boxes(relation, read::<Box3d>(argument).0);
+            }
+            match strategy {
+                strategy::CONTAINS_POINT => {
+                    let point = read::<Point3d>(argument).0;
+                    let point = engine::Box3d::new(point, point);
+                    Self::Boxes(BoxRelation::Contains, point)
+                }
+                strategy::MEETS_CONE => Self::InView(FieldOfView::Cone(read::<ViewCone>(argument))),
+                strategy::MEETS_SECTOR => {
+                    Self::InView(FieldOfView::Sector(read::<ViewSector>(argument)))
+                }
+                other => unknown(other),
+            }
+        }
+    }
+
+    /// The same where the number alone does not say of what type the argument is, as in BRIN.
+    ///
+    /// # Safety
+    /// The argument must be of the type `subtype`, and the operator class must give the strategy
+    /// that type.
+    pub unsafe fn of_type(strategy: u16, subtype: pg_sys::Oid, argument: pg_sys::Datum) -> Self {
+        let strategy = match strategy {
+            strategy::CONTAINS if subtype == Point3d::type_oid() => strategy::CONTAINS_POINT,
+            strategy::OVERLAPS if subtype == ViewCone::type_oid() => strategy::MEETS_CONE,
+            strategy::OVERLAPS if subtype == ViewSector::type_oid() => strategy::MEETS_SECTOR,
+            other => other,
+        };
+        // SAFETY: as the caller says.
+        unsafe { Self::of(strategy, argument) }
+    }
+
+    /// Whether a box is one of those looked for; exact.
+    pub fn holds(&self, call: pg_sys::FunctionCallInfo, key: &engine::Box3d) -> bool {
+        match self {
+            Self::Boxes(relation, other) => relation.holds(key, other),
+            Self::InView(view) => with_prepared(call, *view, |view| view.meets(key)),
+        }
+    }
+
+    /// Whether some box of a range may be one of those looked for.
+    pub fn possible(&self, call: pg_sys::FunctionCallInfo, range: &BoxRange) -> bool {
+        match self {
+            Self::Boxes(relation, other) => relation.possible(range, other),
+            Self::InView(view) => {
+                let bounds = finite(range.bounds());
+                with_prepared(call, *view, |view| view.meets(&bounds))
+            }
+        }
+    }
+}
+
+/// What a scan wants the nearest of.
+pub struct Nearest(engine::Box3d);
+
+impl Nearest {
+    /// What an ordering operator's strategy number and its right argument ask for.
+    ///
+    /// # Safety
+    /// The argument must be of the type that the operator class gives the strategy.
+    pub unsafe fn of(strategy: u16, argument: pg_sys::Datum) -> Self {
+        // SAFETY: both types are passed by reference, and the caller vouches for which it is.
+        unsafe {
+            match strategy {
+                strategy::DISTANCE => Self(read::<Box3d>(argument).0),
+                strategy::DISTANCE_TO_POINT => {
+                    let point = read::<Point3d>(argument).0;
+                    Self(engine::Box3d::new(point, point))
+                }
+                other => unknown(other),
+            }
+        }
+    }
+
+    /// The distance of a box, as the operator gives it; for a box around others, no greater than
+    /// theirs.
+    pub fn distance(&self, key: &engine::Box3d) -> f64 {
+        key.distance(&self.0)
+    }
+}
+
+/// The relation that a strategy number stands for, if its argument is a box.
+fn relation(strategy: u16) -> Option<BoxRelation> {
+    let axis = |numbers: [u16; 3]| numbers.iter().position(|&number| number == strategy);
+    match strategy {
+        strategy::OVERLAPS => Some(BoxRelation::Overlaps),
+        strategy::SAME | strategy::EQUALS => Some(BoxRelation::Equals),
+        strategy::CONTAINS => Some(BoxRelation::Contains),
+        strategy::CONTAINED_BY => Some(BoxRelation::ContainedBy),
+        _ => axis(strategy::BEFORE)
+            .map(BoxRelation::Before)
+            .or_else(|| axis(strategy::NOT_AFTER).map(BoxRelation::NotAfter))
+            .or_else(|| axis(strategy::NOT_BEFORE).map(BoxRelation::NotBefore))
+            .or_else(|| axis(strategy::AFTER).map(BoxRelation::After)),
+    }
+}
+
+/// The part of a box that finite boxes can be in.
+fn finite(bounds: engine::Box3d) -> engine::Box3d {
+    engine::Box3d {
+        min: bounds.min.max(DVec3::splat(f64::MIN)),
+        max: bounds.max.min(DVec3::splat(f64::MAX)),
+    }
+}
+
+/// A value passed by reference.
+///
+/// # Safety
+/// The datum must point to a `T`.
+pub unsafe fn read<T: Copy>(datum: pg_sys::Datum) -> T {
+    // SAFETY: as the caller says.
+    unsafe { datum.cast_mut_ptr::<T>().read() }
+}
+
+fn unknown(strategy: u16) -> ! {
+    Refusal::new(
+        PgSqlErrorCode::ERRCODE_INTERNAL_ERROR,
+        format!("unknown strategy number {strategy} for box3d"),
+    )
+    .raise()
+}

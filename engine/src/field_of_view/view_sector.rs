@@ -14,8 +14,8 @@ const SIDE_TOLERANCE: f64 = 1e-9;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViewSector {
     eye: DVec3,
-    heading: f64,
-    half_angle: f64,
+    /// The sector as one or two convex wedges.
+    wedges: [Option<Wedge>; 2],
     range: f64,
 }
 
@@ -24,12 +24,13 @@ impl ViewSector {
     /// full aperture, in radians; `range`, a distance in space, in metres.
     #[must_use]
     pub fn new(eye: DVec3, heading: f64, angle: f64, range: f64) -> Self {
-        Self {
-            eye,
-            heading,
-            half_angle: angle / 2.0,
-            range,
-        }
+        let half = angle / 2.0;
+        let wedges = if half <= FRAC_PI_2 {
+            [Some(Wedge::new(heading, half)), None]
+        } else {
+            [-half, half].map(|turn| Some(Wedge::new(heading + turn / 2.0, half / 2.0)))
+        };
+        Self { eye, wedges, range }
     }
 
     /// Whether sector and box share a point.
@@ -39,57 +40,118 @@ impl ViewSector {
             return false;
         };
         let height = 0.0_f64.clamp(local.min.z, local.max.z);
-        self.wedges()
-            .into_iter()
-            .flatten()
-            .any(|(heading, half_angle)| {
-                nearest_2(&wedge_part(&local, heading, half_angle))
-                    .is_some_and(|plan_2| within(plan_2 + height * height, self.range))
-            })
-    }
-
-    /// The sector as one or two convex wedges, each a heading and a half angle.
-    fn wedges(&self) -> [Option<(f64, f64)>; 2] {
-        if self.half_angle <= FRAC_PI_2 {
-            return [Some((self.heading, self.half_angle)), None];
-        }
-        let half = self.half_angle / 2.0;
-        [
-            Some((self.heading - half, half)),
-            Some((self.heading + half, half)),
-        ]
-    }
-}
-
-/// The part of the box's plan rectangle that lies in a convex wedge at the origin.
-fn wedge_part(local: &Box3d, heading: f64, half_angle: f64) -> Vec<DVec2> {
-    let (min, max) = (local.min.truncate(), local.max.truncate());
-    let rectangle = vec![min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)];
-    [-half_angle, half_angle]
-        .into_iter()
-        .fold(rectangle, |polygon, turn| {
-            let azimuth = heading + turn;
-            // The inward normal of the side at this azimuth.
-            let inward = DVec2::new(azimuth.cos(), -azimuth.sin()) * -turn.signum();
-            clip(&polygon, inward)
+        let (min, max) = (local.min.truncate(), local.max.truncate());
+        let nearest = DVec2::ZERO.clamp(min, max);
+        // The nearest point of the box is in range.
+        self.wedges.iter().flatten().any(|wedge| {
+            wedge.holds(nearest)
+                || !wedge.misses(min, max)
+                    && nearest_2(wedge.part(min, max).corners())
+                        .is_some_and(|plan_2| within(plan_2 + height * height, self.range))
         })
+    }
 }
 
-/// The part of a convex polygon on the inner side of a line through the origin.
-fn clip(polygon: &[DVec2], inward: DVec2) -> Vec<DVec2> {
-    let depth = |p: DVec2| p.dot(inward) + SIDE_TOLERANCE + RELATIVE_TOLERANCE * p.length();
-    let mut kept = Vec::with_capacity(polygon.len() + 1);
-    for (i, &a) in polygon.iter().enumerate() {
-        let b = polygon[(i + 1) % polygon.len()];
-        let (from, to) = (depth(a), depth(b));
-        if from >= 0.0 {
-            kept.push(a);
-        }
-        if (from >= 0.0) != (to >= 0.0) {
-            kept.push(a + (b - a) * (from / (from - to)));
-        }
+/// A convex wedge at the origin of the plan: what is on the inner side of two lines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Wedge {
+    inward: [DVec2; 2],
+}
+
+impl Wedge {
+    /// The wedge within `half_angle`, at most a quarter turn, of a heading, radians.
+    fn new(heading: f64, half_angle: f64) -> Self {
+        let inward = [-half_angle, half_angle].map(|turn| {
+            let azimuth = heading + turn;
+            DVec2::new(azimuth.cos(), -azimuth.sin()) * -turn.signum()
+        });
+        Self { inward }
     }
-    kept
+
+    /// Whether a point is inside, or so near that it may be.
+    fn holds(&self, point: DVec2) -> bool {
+        self.inward
+            .iter()
+            .all(|&inward| depth(point, inward) >= 0.0)
+    }
+
+    /// Whether a rectangle is wholly on the outer side of one of the lines.
+    fn misses(&self, min: DVec2, max: DVec2) -> bool {
+        self.inward.iter().any(|&inward| {
+            let innermost = DVec2::select(inward.cmpge(DVec2::ZERO), max, min);
+            // Its depth is the greatest but for the slack, which grows with the distance.
+            innermost.dot(inward) + slack(min.abs().max(max.abs())) < 0.0
+        })
+    }
+
+    /// The part of a rectangle that is inside.
+    fn part(&self, min: DVec2, max: DVec2) -> Polygon {
+        let rectangle = [min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)];
+        let whole = Polygon::of(&rectangle);
+        self.inward
+            .iter()
+            .fold(whole, |part, &inward| part.clipped(inward))
+    }
+}
+
+/// How far inside of a line through the origin a point is, the slack included.
+fn depth(point: DVec2, inward: DVec2) -> f64 {
+    point.dot(inward) + slack(point)
+}
+
+/// By how much a point may be outside and still count as inside.
+fn slack(point: DVec2) -> f64 {
+    SIDE_TOLERANCE + RELATIVE_TOLERANCE * point.length()
+}
+
+/// Corners of a rectangle after two cuts. A cut adds at most half as many as there were: the slack
+/// bends its line, so that it may cross every edge.
+const MOST_CORNERS: usize = 9;
+
+/// A convex polygon with few corners.
+#[derive(Clone, Copy)]
+struct Polygon {
+    corners: [DVec2; MOST_CORNERS],
+    count: usize,
+}
+
+impl Polygon {
+    fn of(corners: &[DVec2]) -> Self {
+        let mut polygon = Self {
+            corners: [DVec2::ZERO; MOST_CORNERS],
+            count: 0,
+        };
+        for &corner in corners {
+            polygon.push(corner);
+        }
+        polygon
+    }
+
+    fn push(&mut self, corner: DVec2) {
+        self.corners[self.count] = corner;
+        self.count += 1;
+    }
+
+    fn corners(&self) -> &[DVec2] {
+        &self.corners[..self.count]
+    }
+
+    /// The part on the inner side of a line through the origin.
+    fn clipped(&self, inward: DVec2) -> Self {
+        let mut kept = Self::of(&[]);
+        let corners = self.corners();
+        for (i, &a) in corners.iter().enumerate() {
+            let b = corners[(i + 1) % corners.len()];
+            let (from, to) = (depth(a, inward), depth(b, inward));
+            if from >= 0.0 {
+                kept.push(a);
+            }
+            if (from >= 0.0) != (to >= 0.0) {
+                kept.push(a + (b - a) * (from / (from - to)));
+            }
+        }
+        kept
+    }
 }
 
 /// Squared distance from the origin to a convex polygon; `None` for an empty one.
@@ -116,7 +178,22 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn holds(sector: &ViewSector, point: DVec3) -> bool {
+    /// A sector's numbers, for a test of points that shares nothing with the one of boxes.
+    #[derive(Clone, Copy, Debug)]
+    struct Given {
+        eye: DVec3,
+        heading: f64,
+        half_angle: f64,
+        range: f64,
+    }
+
+    impl Given {
+        fn sector(&self) -> ViewSector {
+            ViewSector::new(self.eye, self.heading, self.half_angle * 2.0, self.range)
+        }
+    }
+
+    fn holds(sector: &Given, point: DVec3) -> bool {
         let q = point - sector.eye;
         let azimuth = q.x.atan2(q.y);
         let turn = (azimuth - sector.heading).rem_euclid(std::f64::consts::TAU);
@@ -138,7 +215,7 @@ mod tests {
         })
     }
 
-    fn scene() -> impl Strategy<Value = (ViewSector, Box3d)> {
+    fn scene() -> impl Strategy<Value = (Given, Box3d)> {
         let corner = prop::array::uniform3(-20i32..20).prop_map(|c| DVec3::from(c.map(f64::from)));
         let size = prop::array::uniform3(0i32..15).prop_map(|c| DVec3::from(c.map(f64::from)));
         (corner, size, 0i32..24, 1i32..24, 1i32..40, any::<bool>()).prop_map(
@@ -149,12 +226,12 @@ mod tests {
                     DVec3::ZERO
                 };
                 let step = 15f64.to_radians();
-                let sector = ViewSector::new(
-                    origin,
-                    f64::from(h) * step,
-                    f64::from(a) * step,
-                    f64::from(r),
-                );
+                let sector = Given {
+                    eye: origin,
+                    heading: f64::from(h) * step,
+                    half_angle: f64::from(a) * step / 2.0,
+                    range: f64::from(r),
+                };
                 (sector, Box3d::new(origin + corner, origin + corner + size))
             },
         )
@@ -165,18 +242,18 @@ mod tests {
         #[test]
         fn never_misses_a_box_with_a_point_inside((sector, target) in scene()) {
             if grid(&target, 8).any(|p| holds(&sector, p)) {
-                prop_assert!(sector.meets(&target));
+                prop_assert!(sector.sector().meets(&target));
             }
         }
 
         #[test]
         fn claims_only_boxes_that_a_slightly_wider_sector_holds((sector, target) in scene()) {
-            let wider = ViewSector {
+            let wider = Given {
                 half_angle: sector.half_angle + 0.08,
                 range: sector.range * 1.05 + 0.2,
                 ..sector
             };
-            if sector.meets(&target) {
+            if sector.sector().meets(&target) {
                 let nearest = sector.eye.clamp(target.min, target.max);
                 prop_assert!(grid(&target, 60).chain([nearest]).any(|p| holds(&wider, p)));
             }

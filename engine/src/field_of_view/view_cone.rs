@@ -256,7 +256,8 @@ mod tests {
         fn claims_only_boxes_that_come_close((cone, target) in scene()) {
             if cone.meets(&target) {
                 let miss = least_miss(&cone, &target, 1e-4);
-                prop_assert!(miss < 1e-4, "{miss}");
+                // The search can get stuck beside a small part that is inside.
+                prop_assert!(miss < 1e-4 || grid_meets(&cone, &target, 60), "{miss}");
             }
         }
     }

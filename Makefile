@@ -1,5 +1,5 @@
 # Every target is a script in scripts/; see CONTRIBUTING.md.
-# PG_CONFIG=/path/to/pg_config chooses another PostgreSQL, 14 to 18.
+# PG_CONFIG=/path/to/pg_config chooses another PostgreSQL, 14 to 18; "make test" without it tests on 15 and 18.
 
 .PHONY: help setup build db db-stop clean-db demo test install lint fmt
 

@@ -12,6 +12,8 @@ case ${CARGO_TARGET_DIR:-target} in
     *) CARGO_TARGET_DIR=$root/${CARGO_TARGET_DIR:-target} ;;
 esac
 export CARGO_TARGET_DIR
+# What the scripts fetch for themselves.
+tools=$root/.tools
 
 # A login shell has rustup's folder on its PATH, a CI job often has not.
 if ! command -v cargo >/dev/null && [ -x "${CARGO_HOME:-$HOME/.cargo}/bin/cargo" ]; then

@@ -57,8 +57,12 @@ BEGIN
     END LOOP;
 END
 $$;
+BEGIN;
+SET LOCAL enable_mergejoin = off;
+SET LOCAL enable_nestloop = off;
 SELECT count(*) = (SELECT count(*) FROM sample AS a JOIN sample AS b USING (numbers)) AS t FROM sample AS a JOIN sample AS b USING (box);
 SELECT bool_or(line ~ 'Hash Join') AS t FROM pg_temp.plan('SELECT FROM sample AS a JOIN sample AS b USING (box)') AS line;
+COMMIT;
 BEGIN;
 SET LOCAL enable_hashjoin = off;
 SET LOCAL enable_nestloop = off;

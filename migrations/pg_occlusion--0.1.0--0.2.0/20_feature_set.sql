@@ -1,0 +1,3 @@
+-- Sets of features.
+
+-- include sql/15_feature_set.sql

@@ -53,12 +53,12 @@ COMMENT ON FUNCTION occlusion.equals(occlusion.feature_set, occlusion.feature_se
 CREATE FUNCTION occlusion.differs(occlusion.feature_set, occlusion.feature_set) RETURNS boolean
     LANGUAGE internal IMMUTABLE STRICT PARALLEL SAFE LEAKPROOF AS 'byteane';
 COMMENT ON FUNCTION occlusion.differs(occlusion.feature_set, occlusion.feature_set) IS 'implementation of <>';
-CREATE FUNCTION occlusion.feature_set_hash(occlusion.feature_set) RETURNS integer
+CREATE FUNCTION occlusion.hash(occlusion.feature_set) RETURNS integer
     LANGUAGE internal IMMUTABLE STRICT PARALLEL SAFE AS 'hashvarlena';
-COMMENT ON FUNCTION occlusion.feature_set_hash(occlusion.feature_set) IS 'hash of a set';
-CREATE FUNCTION occlusion.feature_set_hash(occlusion.feature_set, bigint) RETURNS bigint
+COMMENT ON FUNCTION occlusion.hash(occlusion.feature_set) IS 'hash, for hash indexes and joins';
+CREATE FUNCTION occlusion.hash_extended(occlusion.feature_set, bigint) RETURNS bigint
     LANGUAGE internal IMMUTABLE STRICT PARALLEL SAFE AS 'hashvarlenaextended';
-COMMENT ON FUNCTION occlusion.feature_set_hash(occlusion.feature_set, bigint) IS 'hash of a set, seeded';
+COMMENT ON FUNCTION occlusion.hash_extended(occlusion.feature_set, bigint) IS 'hash with a seed, for hash partitions';
 CREATE FUNCTION occlusion.compare(occlusion.feature_set, occlusion.feature_set) RETURNS integer
     LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'feature_set_compare_wrapper';
 COMMENT ON FUNCTION occlusion.compare(occlusion.feature_set, occlusion.feature_set) IS
@@ -192,8 +192,8 @@ CREATE OPERATOR CLASS occlusion.feature_set_ops DEFAULT FOR TYPE occlusion.featu
 COMMENT ON OPERATOR CLASS occlusion.feature_set_ops USING btree IS 'sets in the order of their numbers';
 CREATE OPERATOR CLASS occlusion.feature_set_ops DEFAULT FOR TYPE occlusion.feature_set USING hash AS
     OPERATOR 1 occlusion.=,
-    FUNCTION 1 occlusion.feature_set_hash(occlusion.feature_set),
-    FUNCTION 2 occlusion.feature_set_hash(occlusion.feature_set, bigint);
+    FUNCTION 1 occlusion.hash(occlusion.feature_set),
+    FUNCTION 2 occlusion.hash_extended(occlusion.feature_set, bigint);
 COMMENT ON OPERATOR CLASS occlusion.feature_set_ops USING hash IS 'equality of sets';
 
 -- GIN, an entry for each number: which sets hold this feature?

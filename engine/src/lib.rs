@@ -10,6 +10,7 @@ mod columns;
 mod convex_pieces;
 mod convex_polygon;
 mod convex_prism;
+mod feature_set;
 mod field_of_view;
 mod hilbert;
 mod mesh;
@@ -28,6 +29,7 @@ pub use city::{BoxCity, City, CityFeature, CityLayout, generated_city, scattered
 pub use columns::{ColumnOptions, SolidColumns, solid_columns};
 pub use convex_pieces::{ConvexPieceOptions, convex_pieces};
 pub use convex_prism::ConvexPrism;
+pub use feature_set::{FeatureSet, MOST_IN_SET, MalformedSet, OversizedSet, SetCollector};
 pub use field_of_view::{ViewCone, ViewSector, in_range};
 pub use hilbert::hilbert_key;
 pub use mesh::{

@@ -1,6 +1,8 @@
-//! Index support for `box3d`: GiST, SP-GiST and BRIN, a file each, over one set of questions.
+//! Index support, a file each: GiST, SP-GiST and BRIN for `box3d`, over one set of questions, and
+//! GIN for `feature_set`.
 
 mod brin;
+mod gin;
 mod gist;
 mod hilbert_order;
 mod query;

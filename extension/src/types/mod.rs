@@ -1,8 +1,9 @@
-//! The SQL types: fixed length, passed by reference, one file each, or a folder.
+//! The SQL types, one file or folder each: of fixed length, but for sets.
 
 mod array;
 mod box3d;
 mod datum;
+mod feature_set;
 mod number;
 mod ordering;
 mod point3d;
@@ -13,6 +14,7 @@ mod wire;
 
 pub use box3d::Box3d;
 pub use datum::Raw;
+pub use feature_set::StoredSet;
 pub use point3d::Point3d;
 pub use view_cone::ViewCone;
 pub use view_sector::ViewSector;

@@ -1,4 +1,4 @@
-//! Binary input and output: the numbers in order, eight bytes each, most significant first.
+//! Binary input and output: numbers in order, eight bytes each, most significant first, or bytes.
 
 use super::Raw;
 use crate::error::Refusal;
@@ -39,4 +39,22 @@ pub fn send(numbers: &[f64]) -> Vec<u8> {
         .iter()
         .flat_map(|number| number.to_be_bytes())
         .collect()
+}
+
+/// All that is left of a message.
+pub fn rest(message: &Raw<pg_sys::StringInfoData>) -> &[u8] {
+    // SAFETY: a receive function is called with a StringInfo that it may advance; `data` holds
+    // `len` bytes, and the message outlives the call.
+    unsafe {
+        let buffer = &mut *message.as_ptr();
+        let start = usize::try_from(buffer.cursor).unwrap_or(0);
+        let bytes = std::slice::from_raw_parts(
+            buffer.data.cast::<u8>().add(start),
+            usize::try_from(buffer.len)
+                .unwrap_or(0)
+                .saturating_sub(start),
+        );
+        buffer.cursor = buffer.len;
+        bytes
+    }
 }

@@ -103,3 +103,8 @@ fn box3d_max_distance(a: Box3d, b: Box3d) -> f64 {
 fn box3d_max_distance_point(a: Box3d, point: Point3d) -> f64 {
     a.0.max_distance(&engine::Box3d::new(point.0, point.0))
 }
+
+#[pg_extern(immutable, strict, parallel_safe)]
+fn box3d_curve_position(a: Box3d) -> Vec<u8> {
+    engine::hilbert_key(a.0.center()).to_be_bytes().to_vec()
+}

@@ -3,6 +3,8 @@
 mod array;
 mod box3d;
 mod datum;
+mod frustum;
+mod frustum_make;
 mod number;
 mod ordering;
 mod point3d;
@@ -13,6 +15,7 @@ mod wire;
 
 pub use box3d::Box3d;
 pub use datum::Raw;
+pub use frustum::Frustum;
 pub use point3d::Point3d;
 pub use view_cone::ViewCone;
 pub use view_sector::ViewSector;

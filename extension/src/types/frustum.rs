@@ -170,7 +170,8 @@ impl Frustum {
             camera.far,
         ]);
         numbers[13..].copy_from_slice(&camera.shift.to_array());
-        Self::checked(numbers)
+        // Without the minus zeros that a matrix's zeros leave.
+        Self::checked(numbers.map(|number| number + 0.0))
     }
 
     /// Whether frustum and box share a point.

@@ -27,7 +27,7 @@ FROM (VALUES
     ('FRUSTUM(85000.125 447000.875 -3.5, 1e-300 2e-300 5e-324, 0 1e300 1e300, 179.99999999999997, 1e-9, 5e-324, 0.30000000000000004)',
      'FRUSTUM(85000.125 447000.875 -3.5, 1e-300 2e-300 5e-324, 0 1e300 1e300, 179.99999999999997, 1e-9, 5e-324, 0.30000000000000004)'),
     ('FRUSTUM(1e15 1e300 -1e300, 1 1 1, 1.0000001 1 1, 1e-300, 1e300, 1e15, 1e16, -1e-300 3)',
-     'FRUSTUM(1e15 1e300 -1e300, 1 1 1, 1.0000001 1 1, 1e-300, 1e300, 1000000000000000, 1e16, -1e-300 3)')
+     'FRUSTUM(1000000000000000 1e300 -1e300, 1 1 1, 1.0000001 1 1, 1e-300, 1e300, 1000000000000000, 1e16, -1e-300 3)')
 ) AS spelling (given, shown);
 
 -- Constructors and accessors.
@@ -299,8 +299,6 @@ $$;
 SELECT bool_and(pg_temp.rows_of(f, true) IS NOT DISTINCT FROM pg_temp.rows_of(f, false)) AS t,
        count(*) = 66 AS t, count(pg_temp.rows_of(f, true)) > 50 AS t
 FROM view;
-SELECT bool_and(cardinality(pg_temp.rows_of(f, true)) > 0) AS t FROM view WHERE fov(f) = 60 AND pitch_level
-CROSS JOIN LATERAL (SELECT z(direction(f)) = 0 AS pitch_level) AS p;
 
 -- The index is what answers, unprompted, and commuted too.
 CREATE FUNCTION pg_temp.scans(statement text) RETURNS SETOF text LANGUAGE plpgsql AS $$
@@ -357,6 +355,6 @@ SELECT visible_glb('regress_frustum', frustum('POINT(0 0 900)', 0, 0, 0, 1, 1, 0
        (SELECT count(*) FROM visible_models('regress_frustum', frustum('POINT(0 0 900)', 0, 0, 0, 1, 1, 0, 1))) = 0 AS t;
 SELECT drop_scene('regress_frustum');
 
--- What a caller's search path holds is not run.
+-- No such scene.
 SET search_path = pg_catalog;
 SELECT pg_temp.outcome($$SELECT occlusion.visible_features('regress_nowhere', 'FRUSTUM(0 0 0, 0 1 0, 0 0 1, 60, 1, 0, 4)'::occlusion.frustum)$$) LIKE '3F000%' AS t;

@@ -1,4 +1,4 @@
--- The frustum of a camera: type, constructors, accessors, operators, index.
+-- The frustum of a camera: type, constructors, accessors, operators, indexes, order.
 
 CREATE TYPE occlusion.frustum;
 CREATE FUNCTION occlusion.frustum_in(cstring) RETURNS occlusion.frustum
@@ -95,3 +95,81 @@ COMMENT ON OPERATOR occlusion.&& (occlusion.frustum, occlusion.box3d) IS 'meets 
 
 ALTER OPERATOR FAMILY occlusion.box3d_ops USING gist ADD
     OPERATOR 53 occlusion.&& (occlusion.box3d, occlusion.frustum);
+ALTER OPERATOR FAMILY occlusion.box3d_spgist_ops USING spgist ADD
+    OPERATOR 53 occlusion.&& (occlusion.box3d, occlusion.frustum);
+ALTER OPERATOR FAMILY occlusion.box3d_brin_ops USING brin ADD
+    OPERATOR 3 occlusion.&& (occlusion.box3d, occlusion.frustum);
+
+-- Equality, order and hash, as those of the other types.
+
+CREATE FUNCTION occlusion.equals(occlusion.frustum, occlusion.frustum) RETURNS boolean
+    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'frustum_equals_wrapper';
+COMMENT ON FUNCTION occlusion.equals(occlusion.frustum, occlusion.frustum) IS 'implementation of =';
+CREATE FUNCTION occlusion.differs(occlusion.frustum, occlusion.frustum) RETURNS boolean
+    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'frustum_differs_wrapper';
+COMMENT ON FUNCTION occlusion.differs(occlusion.frustum, occlusion.frustum) IS 'implementation of <>';
+CREATE FUNCTION occlusion.less(occlusion.frustum, occlusion.frustum) RETURNS boolean
+    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'frustum_less_wrapper';
+COMMENT ON FUNCTION occlusion.less(occlusion.frustum, occlusion.frustum) IS 'implementation of <';
+CREATE FUNCTION occlusion.less_or_equal(occlusion.frustum, occlusion.frustum) RETURNS boolean
+    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'frustum_less_or_equal_wrapper';
+COMMENT ON FUNCTION occlusion.less_or_equal(occlusion.frustum, occlusion.frustum) IS 'implementation of <=';
+CREATE FUNCTION occlusion.greater_or_equal(occlusion.frustum, occlusion.frustum) RETURNS boolean
+    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'frustum_greater_or_equal_wrapper';
+COMMENT ON FUNCTION occlusion.greater_or_equal(occlusion.frustum, occlusion.frustum) IS 'implementation of >=';
+CREATE FUNCTION occlusion.greater(occlusion.frustum, occlusion.frustum) RETURNS boolean
+    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'frustum_greater_wrapper';
+COMMENT ON FUNCTION occlusion.greater(occlusion.frustum, occlusion.frustum) IS 'implementation of >';
+CREATE FUNCTION occlusion.compare(occlusion.frustum, occlusion.frustum) RETURNS integer
+    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'frustum_compare_wrapper';
+COMMENT ON FUNCTION occlusion.compare(occlusion.frustum, occlusion.frustum) IS '-1, 0 or 1: order of the numbers in turn';
+CREATE FUNCTION occlusion.hash(occlusion.frustum) RETURNS integer
+    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'frustum_hash_wrapper';
+COMMENT ON FUNCTION occlusion.hash(occlusion.frustum) IS 'hash, for hash indexes and joins';
+CREATE FUNCTION occlusion.hash_extended(occlusion.frustum, bigint) RETURNS bigint
+    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'frustum_hash_extended_wrapper';
+COMMENT ON FUNCTION occlusion.hash_extended(occlusion.frustum, bigint) IS 'hash with a seed, for hash partitions';
+CREATE OPERATOR occlusion.= (
+    LEFTARG = occlusion.frustum, RIGHTARG = occlusion.frustum, FUNCTION = occlusion.equals,
+    COMMUTATOR = OPERATOR(occlusion.=), NEGATOR = OPERATOR(occlusion.<>),
+    RESTRICT = eqsel, JOIN = eqjoinsel, HASHES, MERGES
+);
+COMMENT ON OPERATOR occlusion.= (occlusion.frustum, occlusion.frustum) IS 'the same numbers';
+CREATE OPERATOR occlusion.<> (
+    LEFTARG = occlusion.frustum, RIGHTARG = occlusion.frustum, FUNCTION = occlusion.differs,
+    COMMUTATOR = OPERATOR(occlusion.<>), NEGATOR = OPERATOR(occlusion.=),
+    RESTRICT = neqsel, JOIN = neqjoinsel
+);
+COMMENT ON OPERATOR occlusion.<> (occlusion.frustum, occlusion.frustum) IS 'not the same numbers';
+CREATE OPERATOR occlusion.< (
+    LEFTARG = occlusion.frustum, RIGHTARG = occlusion.frustum, FUNCTION = occlusion.less,
+    COMMUTATOR = OPERATOR(occlusion.>), NEGATOR = OPERATOR(occlusion.>=),
+    RESTRICT = scalarltsel, JOIN = scalarltjoinsel
+);
+COMMENT ON OPERATOR occlusion.< (occlusion.frustum, occlusion.frustum) IS 'earlier in the order of the numbers';
+CREATE OPERATOR occlusion.<= (
+    LEFTARG = occlusion.frustum, RIGHTARG = occlusion.frustum, FUNCTION = occlusion.less_or_equal,
+    COMMUTATOR = OPERATOR(occlusion.>=), NEGATOR = OPERATOR(occlusion.>),
+    RESTRICT = scalarlesel, JOIN = scalarlejoinsel
+);
+COMMENT ON OPERATOR occlusion.<= (occlusion.frustum, occlusion.frustum) IS 'earlier in the order of the numbers, or equal';
+CREATE OPERATOR occlusion.>= (
+    LEFTARG = occlusion.frustum, RIGHTARG = occlusion.frustum, FUNCTION = occlusion.greater_or_equal,
+    COMMUTATOR = OPERATOR(occlusion.<=), NEGATOR = OPERATOR(occlusion.<),
+    RESTRICT = scalargesel, JOIN = scalargejoinsel
+);
+COMMENT ON OPERATOR occlusion.>= (occlusion.frustum, occlusion.frustum) IS 'later in the order of the numbers, or equal';
+CREATE OPERATOR occlusion.> (
+    LEFTARG = occlusion.frustum, RIGHTARG = occlusion.frustum, FUNCTION = occlusion.greater,
+    COMMUTATOR = OPERATOR(occlusion.<), NEGATOR = OPERATOR(occlusion.<=),
+    RESTRICT = scalargtsel, JOIN = scalargtjoinsel
+);
+COMMENT ON OPERATOR occlusion.> (occlusion.frustum, occlusion.frustum) IS 'later in the order of the numbers';
+CREATE OPERATOR CLASS occlusion.frustum_order_ops DEFAULT FOR TYPE occlusion.frustum USING btree AS
+    OPERATOR 1 occlusion.<, OPERATOR 2 occlusion.<=, OPERATOR 3 occlusion.=, OPERATOR 4 occlusion.>=, OPERATOR 5 occlusion.>,
+    FUNCTION 1 occlusion.compare(occlusion.frustum, occlusion.frustum);
+COMMENT ON OPERATOR CLASS occlusion.frustum_order_ops USING btree IS 'order of the numbers in turn';
+CREATE OPERATOR CLASS occlusion.frustum_hash_ops DEFAULT FOR TYPE occlusion.frustum USING hash AS
+    OPERATOR 1 occlusion.=,
+    FUNCTION 1 occlusion.hash(occlusion.frustum), FUNCTION 2 occlusion.hash_extended(occlusion.frustum, bigint);
+COMMENT ON OPERATOR CLASS occlusion.frustum_hash_ops USING hash IS 'the same numbers';

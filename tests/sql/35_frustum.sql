@@ -1,4 +1,4 @@
--- The frustum: type, operators, index.
+-- The frustum: type, operators, indexes, queries.
 SET search_path = occlusion, public;
 
 -- How a statement ends, without the lines that change with the server's version.
@@ -251,7 +251,7 @@ FROM (VALUES ('BOX3D(100 100 0, 120 120 20)'::box3d), ('BOX3D(-1e6 -1e6 -1e6, 1e
              ('BOX3D(-1e308 -1e308 -1e308, 1e308 1e308 1e308)')) AS around (box),
      (VALUES (5::float8), (1e6), (1e15), (1e300)) AS depth (far);
 
--- GiST: every answer by index is the one without it. Rows of every kind: scattered, a grid that
+-- Every answer by an index of each kind is the one without it. Rows of every kind: scattered, a grid that
 -- touches, flat ones, the same box over and over, single points, huge coordinates.
 CREATE TEMPORARY TABLE indexed (id int, box box3d);
 INSERT INTO indexed
@@ -275,8 +275,14 @@ SELECT 60000 + i, box3d(point3d(-1e15 * i, 1e15 * i, -i), point3d(1e300, 1e15 * 
 INSERT INTO indexed
 SELECT 70000 + i, box3d(point3d(1e15 + i, 1e15 + 2 * i, 0), point3d(1e15 + i + 2, 1e15 + 2 * i + 3, 5)) FROM generate_series(1, 500) AS i;
 INSERT INTO indexed VALUES (-1, NULL);
+CREATE TEMPORARY TABLE indexed_spgist AS TABLE indexed;
+CREATE TEMPORARY TABLE indexed_brin AS TABLE indexed;
 CREATE INDEX ON indexed USING gist (box);
+CREATE INDEX ON indexed_spgist USING spgist (box);
+CREATE INDEX ON indexed_brin USING brin (box) WITH (pages_per_range = 1);
 ANALYZE indexed;
+ANALYZE indexed_spgist;
+ANALYZE indexed_brin;
 CREATE TEMPORARY TABLE view (number serial, f frustum);
 INSERT INTO view (f)
 SELECT frustum(eye::point3d, heading, pitch, roll, fov, aspect, near, far)
@@ -284,21 +290,22 @@ FROM (VALUES ('POINT(500 500 1.75)'), ('POINT(110 110 10)'), ('POINT(85500 44730
      (VALUES (0, 0, 0), (45, -10, 0), (200, 30, 33), (315, -90, 0)) AS d (heading, pitch, roll),
      (VALUES (60::float8, 1.5::float8, 0.1::float8, 200::float8), (1, 1, 5, 40), (150, 0.5, 0, 2000), (40, 3, 50, 1e9)) AS i (fov, aspect, near, far);
 INSERT INTO view (f) VALUES ('FRUSTUM(500 500 20, 0 1 0, 0 0 1, 60, 1.5, 1, 300, 1 -2)'), ('FRUSTUM(0 0 -5, 0 1 0, 0 0 1, 60, 1, 0, 4)');
-CREATE FUNCTION pg_temp.rows_of(f frustum, by_index boolean) RETURNS int[] LANGUAGE plpgsql AS $$
+CREATE FUNCTION pg_temp.rows_of(f frustum, relation text, by_index boolean) RETURNS int[] LANGUAGE plpgsql AS $$
 DECLARE
     rows int[];
 BEGIN
     PERFORM set_config('enable_seqscan', CASE WHEN by_index THEN 'off' ELSE 'on' END, true);
     PERFORM set_config('enable_indexscan', CASE WHEN by_index THEN 'on' ELSE 'off' END, true);
     PERFORM set_config('enable_indexonlyscan', CASE WHEN by_index THEN 'on' ELSE 'off' END, true);
-    PERFORM set_config('enable_bitmapscan', 'off', true);
-    EXECUTE format('SELECT array_agg(id ORDER BY id) FROM indexed WHERE box && %L::occlusion.frustum', f) INTO rows;
+    PERFORM set_config('enable_bitmapscan', CASE WHEN by_index THEN 'on' ELSE 'off' END, true);
+    EXECUTE format('SELECT array_agg(id ORDER BY id) FROM %I WHERE box && %L::occlusion.frustum', relation, f) INTO rows;
     RETURN rows;
 END
 $$;
-SELECT bool_and(pg_temp.rows_of(f, true) IS NOT DISTINCT FROM pg_temp.rows_of(f, false)) AS t,
-       count(*) = 66 AS t, count(pg_temp.rows_of(f, true)) > 50 AS t
-FROM view;
+SELECT relation, bool_and(pg_temp.rows_of(f, relation, true) IS NOT DISTINCT FROM pg_temp.rows_of(f, 'indexed', false)) AS t,
+       count(*) = 66 AS t, count(pg_temp.rows_of(f, relation, true)) > 50 AS t
+FROM view, (VALUES ('indexed'), ('indexed_spgist'), ('indexed_brin')) AS r (relation)
+GROUP BY relation ORDER BY relation;
 
 -- The index is what answers, unprompted, and commuted too.
 CREATE FUNCTION pg_temp.scans(statement text) RETURNS SETOF text LANGUAGE plpgsql AS $$
@@ -315,12 +322,21 @@ $$;
 SET enable_bitmapscan = off;
 SELECT pg_temp.scans($$SELECT * FROM indexed WHERE box && 'FRUSTUM(0 0 0, 0 1 0, 0 0 1, 60, 1, 0, 4)'::frustum$$);
 SELECT pg_temp.scans($$SELECT * FROM indexed WHERE 'FRUSTUM(0 0 0, 0 1 0, 0 0 1, 60, 1, 0, 4)'::frustum && box$$);
+SELECT pg_temp.scans($$SELECT * FROM indexed_spgist WHERE box && 'FRUSTUM(0 0 0, 0 1 0, 0 0 1, 60, 1, 0, 4)'::frustum$$);
 RESET enable_bitmapscan;
+SELECT pg_temp.scans($$SELECT * FROM indexed_brin WHERE box && 'FRUSTUM(0 0 0, 0 1 0, 0 0 1, 60, 1, 0, 4)'::frustum$$);
 -- By columns of another table as well.
 SET enable_seqscan = off;
 SELECT pg_temp.scans('SELECT * FROM view JOIN indexed ON box && f') ~ 'Index' AS t OFFSET 1;
 RESET enable_seqscan;
-SELECT amvalidate(oid) AS t FROM pg_opclass WHERE opcname = 'box3d_ops';
+SELECT opcname, amvalidate(oid) AS t FROM pg_opclass WHERE opcnamespace = 'occlusion'::regnamespace AND opcname ~ 'box3d|frustum' ORDER BY opcname;
+
+-- Equality, order and hash: of the numbers.
+SELECT a = b AS t, NOT a <> b AS t, hash(a) = hash(b) AS t, hash_extended(a, 7) = hash_extended(b, 7) AS t, compare(a, b) = 0 AS t,
+       a < c AS t, c > a AS t, NOT a = c AS t, a <= b AND a >= b AND a <> c AS t
+FROM (VALUES ('FRUSTUM(0 0 0, 0 1 0, 0 0 1, 60, 1, 0, 4)'::frustum, 'FRUSTUM(-0 0 0, -0 1 0, 0 0 1, 60, 1, -0, 4, 0 -0)'::frustum,
+              'FRUSTUM(0 0 0, 0 1 0, 0 0 1, 60, 1, 0, 4, 0 1)'::frustum)) AS v (a, b, c);
+SELECT count(DISTINCT f) = 66 AND count(*) = 132 AS t FROM (TABLE view UNION ALL TABLE view) AS twice;
 
 -- Visibility: the answer for a frustum is the filter of the answer all round.
 SELECT generate_city('regress_frustum', 'scattered', 120, 7);

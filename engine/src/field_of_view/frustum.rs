@@ -8,9 +8,13 @@ use glam::DVec3;
 /// the axis are at right angles.
 const ROUNDING: f64 = 1e-14;
 
+/// How many axes can separate a frustum from a box: the normals of 5 and of 3 kinds of faces, and those
+/// to each of 6 kinds of edges with each of 3.
+const AXES: usize = 5 + 3 + 6 * 3;
+
 /// What a camera sees: the closed hexahedron between its near and far plane, ready for tests of
 /// many boxes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frustum {
     eye: DVec3,
     /// Distance of the farthest corner from the eye.
@@ -18,7 +22,7 @@ pub struct Frustum {
     /// Slack by metre of a box's distance: wide images have rays whose rounding counts for more.
     tolerance: f64,
     /// The frustum along every axis that can separate it from a box.
-    slabs: Vec<Slab>,
+    slabs: [Slab; AXES],
 }
 
 impl Frustum {
@@ -34,8 +38,7 @@ impl Frustum {
             reach: camera.far * longest,
             tolerance: RELATIVE_TOLERANCE * longest,
             slabs: separating_axes(axes, &rays)
-                .map(|axis| Slab::around(axis, &rays, camera.near, camera.far))
-                .collect(),
+                .map(|axis| Slab::around(axis, &rays, camera.near, camera.far)),
         })
     }
 
@@ -54,22 +57,24 @@ impl Frustum {
     }
 }
 
-/// The unit vectors that can separate a frustum from a box, those that mostly do first.
-fn separating_axes(
-    [right, up, forward]: [DVec3; 3],
-    rays: &[DVec3; 4],
-) -> impl Iterator<Item = DVec3> {
+/// The unit vectors that can separate a frustum from a box, those that mostly do first. Where an edge
+/// is along an axis, there is a zero instead, which separates nothing.
+fn separating_axes([right, up, forward]: [DVec3; 3], rays: &[DVec3; 4]) -> [DVec3; AXES] {
     let [a, b, c, d] = *rays;
     let sides = [a.cross(b), b.cross(c), c.cross(d), d.cross(a)];
     let edges = [right, up, a, b, c, d].map(DVec3::normalize_or_zero);
     let across = edges
         .into_iter()
         .flat_map(|edge| DVec3::AXES.map(|axis| edge.cross(axis)));
-    std::iter::once(forward)
+    let found = std::iter::once(forward)
         .chain(sides)
         .chain(DVec3::AXES)
-        .chain(across)
-        .filter_map(DVec3::try_normalize)
+        .chain(across);
+    let mut axes = [DVec3::ZERO; AXES];
+    for (axis, found) in axes.iter_mut().zip(found) {
+        *axis = found.normalize_or_zero();
+    }
+    axes
 }
 
 /// The interval that a frustum takes along an axis through the eye.

@@ -7,12 +7,13 @@
 
 use super::datum::fixed_length_type;
 use super::number::{finite, out_of_bounds, shortest};
+use super::ordering::{Numbers, ordered_type};
 use super::text::Literal;
 use super::{Box3d, Point3d, Raw, wire};
 use crate::error::{Refusal, or_raise};
+use crate::field_of_view::{FieldOfView, with_prepared};
 use glam::{DVec2, DVec3};
 use pgrx::{PgSqlErrorCode, pg_extern, pg_sys};
-use std::cell::RefCell;
 use std::ffi::{CStr, CString};
 
 /// Name of the type in SQL.
@@ -47,11 +48,18 @@ pub struct Frustum {
 }
 
 fixed_length_type!(Frustum, "occlusion.frustum");
-
-thread_local! {
-    /// The frustum of the latest test, made ready: a scan asks the same one of every box.
-    static LATEST: RefCell<Option<(Frustum, engine::Frustum)>> = const { RefCell::new(None) };
-}
+ordered_type!(
+    Frustum,
+    frustum_equals,
+    frustum_differs,
+    frustum_less,
+    frustum_less_or_equal,
+    frustum_greater_or_equal,
+    frustum_greater,
+    frustum_compare,
+    frustum_hash,
+    frustum_hash_extended
+);
 
 impl Frustum {
     /// The frustum of its numbers, in the order of the binary form.
@@ -134,16 +142,6 @@ impl Frustum {
         Ok(())
     }
 
-    fn numbers(&self) -> [f64; 15] {
-        let mut numbers = [0.0; 15];
-        for (place, vector) in [self.observer, self.direction, self.up].iter().enumerate() {
-            numbers[3 * place..3 * place + 3].copy_from_slice(&vector.0.to_array());
-        }
-        numbers[9..13].copy_from_slice(&[self.fov, self.aspect, self.near, self.far]);
-        numbers[13..].copy_from_slice(&self.shift.to_array());
-        numbers
-    }
-
     /// The camera to compute with.
     fn camera(&self) -> engine::Camera {
         engine::Camera {
@@ -174,19 +172,9 @@ impl Frustum {
         Self::checked(numbers.map(|number| number + 0.0))
     }
 
-    /// Whether frustum and box share a point.
-    pub fn meets(&self, target: &engine::Box3d) -> bool {
-        LATEST.with_borrow_mut(|latest| {
-            let (_, ready) = match latest.take() {
-                Some((frustum, ready)) if frustum == *self => latest.insert((frustum, ready)),
-                _ => match engine::Frustum::new(&self.camera()) {
-                    Some(ready) => latest.insert((*self, ready)),
-                    // Refused when it came in; if it were not, to err is to see.
-                    None => return true,
-                },
-            };
-            ready.meets(target)
-        })
+    /// The frustum to compute with; there is one, or the value would have been refused.
+    pub fn in_radians(&self) -> Option<engine::Frustum> {
+        engine::Frustum::new(&self.camera())
     }
 }
 
@@ -219,7 +207,7 @@ fn frustum_recv(message: Raw<pg_sys::StringInfoData>) -> Frustum {
 
 #[pg_extern(immutable, strict, parallel_safe)]
 fn frustum_send(frustum: Frustum) -> Vec<u8> {
-    wire::send(&frustum.numbers())
+    wire::send(frustum.numbers())
 }
 
 #[pg_extern(immutable, strict, parallel_safe)]
@@ -274,11 +262,15 @@ fn frustum_corners(frustum: Frustum) -> Vec<Point3d> {
 }
 
 #[pg_extern(immutable, strict, parallel_safe)]
-fn box3d_meets_frustum(target: Box3d, frustum: Frustum) -> bool {
-    frustum.meets(&target.0)
+fn box3d_meets_frustum(call: pg_sys::FunctionCallInfo, target: Box3d, frustum: Frustum) -> bool {
+    with_prepared(call, FieldOfView::Frustum(frustum), |view| {
+        view.meets(&target.0)
+    })
 }
 
 #[pg_extern(immutable, strict, parallel_safe)]
-fn frustum_meets_box3d(frustum: Frustum, target: Box3d) -> bool {
-    frustum.meets(&target.0)
+fn frustum_meets_box3d(call: pg_sys::FunctionCallInfo, frustum: Frustum, target: Box3d) -> bool {
+    with_prepared(call, FieldOfView::Frustum(frustum), |view| {
+        view.meets(&target.0)
+    })
 }

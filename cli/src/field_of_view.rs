@@ -49,7 +49,7 @@ pub struct FieldOfView {
     )]
     pub pitch: f64,
     /// A horizontal sector of any pitch instead of a circular cone
-    #[arg(long, requires = "angle", conflicts_with = "pitch")]
+    #[arg(long, requires = "heading", conflicts_with_all = ["pitch", "fov"])]
     sector: bool,
 }
 

@@ -20,13 +20,22 @@ pub struct FieldOfView {
     #[arg(
         long,
         value_name = "DEGREES",
-        requires = "angle",
+        requires = "aperture",
         allow_hyphen_values = true
     )]
     heading: Option<f64>,
     /// Full opening angle of the field of view, degrees
-    #[arg(long, value_name = "DEGREES", requires = "heading")]
+    #[arg(long, value_name = "DEGREES", requires = "heading", group = "aperture")]
     angle: Option<f64>,
+    /// Height of a camera's picture, degrees: the pyramid that it sees instead of a circular cone
+    #[arg(long, value_name = "DEGREES", requires = "heading", group = "aperture")]
+    fov: Option<f64>,
+    /// Width of the camera's picture by its height
+    #[arg(long, value_name = "RATIO", default_value_t = 1.6, requires = "fov")]
+    aspect: f64,
+    /// Nothing nearer is in the camera's picture, metres along its direction
+    #[arg(long, value_name = "METRES", default_value_t = 0.0, requires = "fov")]
+    near: f64,
     /// How far the observer sees, metres
     #[arg(long, value_name = "METRES", default_value_t = 500.0)]
     pub range: f64,
@@ -40,7 +49,7 @@ pub struct FieldOfView {
     )]
     pub pitch: f64,
     /// A horizontal sector of any pitch instead of a circular cone
-    #[arg(long, requires = "heading", conflicts_with = "pitch")]
+    #[arg(long, requires = "heading", conflicts_with_all = ["pitch", "fov"])]
     sector: bool,
 }
 
@@ -76,9 +85,13 @@ pub struct Returned {
 }
 
 impl FieldOfView {
-    /// The middle of the field of view, or all round.
+    /// The heading, and how wide the field of view is, or all round.
     pub fn direction(&self) -> Option<(f64, f64)> {
-        self.heading.zip(self.angle)
+        let width = |fov: f64| {
+            let half_height = (fov / 2.0).to_radians().tan();
+            2.0 * (half_height * self.aspect).atan().to_degrees()
+        };
+        self.heading.zip(self.angle.or(self.fov.map(width)))
     }
 
     /// What the database says can be seen, nearest first.
@@ -122,18 +135,28 @@ impl FieldOfView {
             angle,
             range,
             pitch,
+            fov,
+            aspect,
+            near,
             ..
         } = self;
-        match (self.direction(), self.sector) {
-            (None, _) => (format!("{EYE}, $2"), vec![observer, range]),
-            (Some(_), true) => (
+        if self.heading.is_none() {
+            (format!("{EYE}, $2"), vec![observer, range])
+        } else if fov.is_some() {
+            (
+                format!("occlusion.frustum({EYE}, $3, $4, 0, $5, $6, $7, $2)"),
+                vec![observer, range, heading, pitch, fov, aspect, near],
+            )
+        } else if self.sector {
+            (
                 format!("occlusion.view_sector({EYE}, $3, $4, $2)"),
                 vec![observer, range, heading, angle],
-            ),
-            (Some(_), false) => (
+            )
+        } else {
+            (
                 format!("occlusion.view_cone({EYE}, $3, $4, $2, $5)"),
                 vec![observer, range, heading, angle, pitch],
-            ),
+            )
         }
     }
 }

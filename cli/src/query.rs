@@ -13,7 +13,8 @@ use crate::terminal::{FAINT, grouped, table};
 
 const EXAMPLES: &str = "Examples:
   occlusion query delft --observer 85200,446800,1.7 --range 100
-  occlusion query delft --observer 85200,446800,1.7 --heading 45 --angle 90 --json";
+  occlusion query delft --observer 85200,446800,1.7 --heading 45 --angle 90 --json
+  occlusion query delft --observer 85200,446800,1.7 --heading 45 --pitch -5 --fov 60 --aspect 1.5";
 
 /// Lists the features that an observer may see, nearest first
 #[derive(Args, Debug)]

@@ -30,7 +30,9 @@ pub use columns::{ColumnOptions, SolidColumns, solid_columns};
 pub use convex_pieces::{ConvexPieceOptions, convex_pieces};
 pub use convex_prism::ConvexPrism;
 pub use feature_set::{FeatureSet, MOST_IN_SET, MalformedSet, OversizedSet, SetCollector};
-pub use field_of_view::{ViewCone, ViewSector, in_range};
+pub use field_of_view::{
+    Camera, DepthRange, Frustum, MatrixDefect, ViewCone, ViewSector, in_range,
+};
 pub use hilbert::hilbert_key;
 pub use mesh::{
     Closedness, Extrusion, GROUND_TOLERANCE, InnerEnvelope, MeshDefect, PolygonDefect,

@@ -1,6 +1,6 @@
 //! [`FieldOfView`], what an observer looks at, as a value of one of several SQL types.
 
-use crate::types::{ViewCone, ViewSector};
+use crate::types::{Frustum, ViewCone, ViewSector};
 use engine::Box3d;
 use pgrx::pg_sys;
 
@@ -11,15 +11,23 @@ pub enum FieldOfView {
     Cone(ViewCone),
     /// A horizontal sector of any pitch.
     Sector(ViewSector),
+    /// What a camera sees.
+    Frustum(Frustum),
 }
 
 /// The same, ready to be compared with many boxes.
 #[derive(Clone, Copy)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "one a call site, in memory that runs no destructors"
+)]
 pub enum Prepared {
     /// A circular cone.
     Cone(engine::ViewCone),
     /// A horizontal sector of any pitch.
     Sector(engine::ViewSector),
+    /// What a camera sees. One that cannot be made, as no stored value is, would see everything.
+    Frustum(Option<engine::Frustum>),
 }
 
 impl FieldOfView {
@@ -27,6 +35,7 @@ impl FieldOfView {
         match self {
             Self::Cone(cone) => Prepared::Cone(cone.in_radians()),
             Self::Sector(sector) => Prepared::Sector(sector.in_radians()),
+            Self::Frustum(frustum) => Prepared::Frustum(frustum.in_radians()),
         }
     }
 }
@@ -37,6 +46,7 @@ impl Prepared {
         match self {
             Self::Cone(cone) => cone.meets(target),
             Self::Sector(sector) => sector.meets(target),
+            Self::Frustum(frustum) => frustum.as_ref().is_none_or(|frustum| frustum.meets(target)),
         }
     }
 }

@@ -97,7 +97,7 @@ COMMIT;
 SELECT center('BOX3D(0 0 0, 2 4 6)'::box3d) = 'POINT(1 2 3)' AS t, size('BOX3D(1 1 1, 3 5 7)'::box3d) = 'POINT(2 4 6)' AS t,
        surface_area('BOX3D(0 0 0, 2 3 4)'::box3d) = 52 AS t, surface_area('BOX3D(0 0 0, 2 3 0)'::box3d) = 12 AS t,
        center('BOX3D(1.7e308 0 0, 1.7e308 0 0)'::box3d) = 'POINT(1.7e308 0 0)' AS t,
-       corners('BOX3D(0 0 0, 1 2 3)') = ARRAY['POINT(0 0 0)', 'POINT(1 0 0)', 'POINT(0 2 0)', 'POINT(1 2 0)',
+       corners('BOX3D(0 0 0, 1 2 3)'::box3d) = ARRAY['POINT(0 0 0)', 'POINT(1 0 0)', 'POINT(0 2 0)', 'POINT(1 2 0)',
                                              'POINT(0 0 3)', 'POINT(1 0 3)', 'POINT(0 2 3)', 'POINT(1 2 3)']::point3d[] AS t,
        translate('BOX3D(0 0 0, 1 1 1)'::box3d, 1, -2, 0.5) = 'BOX3D(1 -2 0.5, 2 -1 1.5)' AS t,
        translate('POINT(0 0 0)'::point3d, dx => 1, dy => -2, dz => 0.5) = 'POINT(1 -2 0.5)' AS t;

@@ -98,7 +98,10 @@ impl Render {
         let range = self.field_of_view.range;
         match self.field_of_view.direction() {
             None => format!("all round, {range} m far"),
-            Some((heading, angle)) => format!("heading {heading}°, {angle}° wide, {range} m far"),
+            Some((heading, angle)) => {
+                let wide = (100.0 * angle).round() / 100.0;
+                format!("heading {heading}°, {wide}° wide, {range} m far")
+            }
         }
     }
 

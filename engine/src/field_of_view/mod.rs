@@ -1,11 +1,18 @@
-//! What an observer looks at: [`ViewCone`], [`ViewSector`], and the ball all round ([`in_range`]).
+//! What an observer looks at: [`ViewCone`], [`ViewSector`], the [`Frustum`] of a [`Camera`], and the
+//! ball all round ([`in_range`]).
 //! Each asks one question of a box: do they share a point? The answers are exact up to the
 //! tolerances named here, and err to "yes".
 
+mod camera;
+mod frustum;
 mod view_cone;
+mod view_projection;
 mod view_sector;
 
+pub use camera::Camera;
+pub use frustum::Frustum;
 pub use view_cone::ViewCone;
+pub use view_projection::{DepthRange, MatrixDefect};
 pub use view_sector::ViewSector;
 
 use crate::Box3d;

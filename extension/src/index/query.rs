@@ -2,7 +2,7 @@
 
 use crate::error::Refusal;
 use crate::field_of_view::{FieldOfView, with_prepared};
-use crate::types::{Box3d, Point3d, ViewCone, ViewSector};
+use crate::types::{Box3d, Frustum, Point3d, ViewCone, ViewSector};
 use engine::{BoxRange, BoxRelation};
 use glam::DVec3;
 use pgrx::{IntoDatum, PgSqlErrorCode, pg_sys};
@@ -25,6 +25,7 @@ mod strategy {
     pub const CONTAINS_POINT: u16 = 27;
     pub const MEETS_CONE: u16 = 33;
     pub const MEETS_SECTOR: u16 = 43;
+    pub const MEETS_FRUSTUM: u16 = 53;
 }
 
 /// What a scan looks for.
@@ -56,6 +57,9 @@ impl Query {
                 strategy::MEETS_SECTOR => {
                     Self::InView(FieldOfView::Sector(read::<ViewSector>(argument)))
                 }
+                strategy::MEETS_FRUSTUM => {
+                    Self::InView(FieldOfView::Frustum(read::<Frustum>(argument)))
+                }
                 other => unknown(other),
             }
         }
@@ -71,6 +75,7 @@ impl Query {
             strategy::CONTAINS if subtype == Point3d::type_oid() => strategy::CONTAINS_POINT,
             strategy::OVERLAPS if subtype == ViewCone::type_oid() => strategy::MEETS_CONE,
             strategy::OVERLAPS if subtype == ViewSector::type_oid() => strategy::MEETS_SECTOR,
+            strategy::OVERLAPS if subtype == Frustum::type_oid() => strategy::MEETS_FRUSTUM,
             other => other,
         };
         // SAFETY: as the caller says.

@@ -35,17 +35,22 @@ pub fn shortest(value: f64) -> String {
     }
 }
 
+/// The refusal of a number that is finite, but not one that its place allows.
+pub fn out_of_bounds(value: f64, name: &str, type_name: &str) -> Refusal {
+    Refusal::new(
+        PgSqlErrorCode::ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE,
+        format!("{name} {} of {type_name} is out of bounds", shortest(value)),
+    )
+}
+
 /// Refuses an aperture outside (0, 360) degrees.
 pub fn aperture(value: f64, type_name: &str) -> Result<f64, Refusal> {
     finite(value, "angle", type_name)?;
     if value > 0.0 && value < 360.0 {
         return Ok(value);
     }
-    Err(Refusal::new(
-        PgSqlErrorCode::ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE,
-        format!("angle {} of {type_name} is out of bounds", shortest(value)),
-    )
-    .detail("The angle is the full aperture, more than 0 and less than 360 degrees."))
+    Err(out_of_bounds(value, "angle", type_name)
+        .detail("The angle is the full aperture, more than 0 and less than 360 degrees."))
 }
 
 /// Refuses a negative range.
@@ -66,9 +71,6 @@ pub fn pitch(value: f64, type_name: &str) -> Result<f64, Refusal> {
     if (-90.0..=90.0).contains(&value) {
         return Ok(value);
     }
-    Err(Refusal::new(
-        PgSqlErrorCode::ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE,
-        format!("pitch {} of {type_name} is out of bounds", shortest(value)),
-    )
-    .detail("The pitch is between -90 and 90 degrees, upward from the horizon."))
+    Err(out_of_bounds(value, "pitch", type_name)
+        .detail("The pitch is between -90 and 90 degrees, upward from the horizon."))
 }

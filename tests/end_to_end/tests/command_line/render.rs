@@ -73,4 +73,11 @@ fn answers_are_tables_and_json() {
         (&ahead[0]["name"], ahead.as_array().map(Vec::len)),
         (&"block 1 1".into(), Some(1))
     );
+    // The picture of a camera: as wide as that cone, or looking down past it.
+    let seen_at = |pitch: &str| {
+        let camera = ["--heading", "45", "--fov", "40", "--pitch", pitch, "--json"];
+        occlusion(&[&field[..], &camera].concat()).expect(0).json()
+    };
+    assert_eq!(seen_at("0")[0]["name"], "block 1 1");
+    assert_eq!(seen_at("-80").as_array().map(Vec::len), Some(0));
 }

@@ -2,6 +2,7 @@
 //! procedures on scenes, each a thin layer over the crate `engine`. The SQL that declares it all
 //! is written by hand in `sql/`; a function `f` here is the symbol `f_wrapper` there.
 
+mod direct_call;
 mod error;
 mod field_of_view;
 mod import;

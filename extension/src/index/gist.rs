@@ -3,119 +3,127 @@
 
 use super::query::{Nearest, Query, read};
 use super::split::split;
+use crate::direct_call::direct_function;
 use crate::types::{Box3d, Raw};
 use engine::BoxRange;
-use pgrx::{Internal, pg_extern, pg_sys};
+use pgrx::pg_sys;
 
-/// Whether a subtree (or, at a leaf, a row) can satisfy the query; exact in every case.
-///
-/// The query's SQL type follows from the strategy, so it comes as a bare pointer.
-#[pg_extern(immutable, strict, parallel_safe)]
-fn box3d_gist_consistent(
-    call: pg_sys::FunctionCallInfo,
-    entry: Raw<pg_sys::GISTENTRY>,
-    query: Raw<u8>,
-    strategy: i16,
-    _subtype: pg_sys::Oid,
-    recheck: Raw<bool>,
-) -> bool {
-    // SAFETY: GiST passes an entry of ours, a place for the answer, and an argument of the type
-    // that the operator class gives the strategy.
-    let (key, leaf, query) = unsafe {
-        recheck.as_ptr().write(false);
-        let entry = &*entry.as_ptr();
-        let query = Query::of(strategy.cast_unsigned(), query.as_ptr().into());
-        (key(entry), is_leaf(entry.page), query)
-    };
-    if leaf {
-        query.holds(call, &key)
-    } else {
-        query.possible(call, &BoxRange::inside(&key))
-    }
-}
-
-/// The distance of a key from the query, for scans that return the nearest first.
-#[pg_extern(immutable, strict, parallel_safe)]
-fn box3d_gist_distance(
-    entry: Raw<pg_sys::GISTENTRY>,
-    query: Raw<u8>,
-    strategy: i16,
-    _subtype: pg_sys::Oid,
-    recheck: Raw<bool>,
-) -> f64 {
-    // SAFETY: as for box3d_gist_consistent.
-    unsafe {
-        recheck.as_ptr().write(false);
-        let nearest = Nearest::of(strategy.cast_unsigned(), query.as_ptr().into());
-        nearest.distance(&key(&*entry.as_ptr()))
-    }
-}
-
-/// The smallest box around all entries.
-#[pg_extern(immutable, strict, parallel_safe)]
-fn box3d_gist_union(entries: Raw<pg_sys::GistEntryVector>, _size: Raw<i32>) -> Box3d {
-    let keys = keys(&entries, 0);
-    Box3d(around(&keys))
-}
-
-/// How much worse a subtree gets by taking an entry: growth in volume, and, where that is
-/// nothing (all boxes flat), in margin.
-#[pg_extern(immutable, strict, parallel_safe)]
-fn box3d_gist_penalty(
-    original: Raw<pg_sys::GISTENTRY>,
-    added: Raw<pg_sys::GISTENTRY>,
-    penalty: Raw<f32>,
-) -> Internal {
-    // SAFETY: GiST passes two entries of ours and a place for the answer.
-    unsafe {
-        let (original, added) = (key(&*original.as_ptr()), key(&*added.as_ptr()));
-        let grown = original.union(&added);
-        let by_volume = grown.volume() - original.volume();
-        let growth = if by_volume > 0.0 {
-            by_volume
-        } else {
-            (grown.margin() - original.margin()) * 1e-6
+direct_function! {
+    /// Whether a subtree (or, at a leaf, a row) can satisfy the query; exact in every case.
+    ///
+    /// The query's SQL type follows from the strategy, so it comes as a bare pointer.
+    fn box3d_gist_consistent(
+        call: pg_sys::FunctionCallInfo,
+        entry: Raw<pg_sys::GISTENTRY>,
+        query: Raw<u8>,
+        strategy: i16,
+        _subtype: pg_sys::Oid,
+        recheck: Raw<bool>,
+    ) -> bool {
+        // SAFETY: GiST passes an entry of ours, a place for the answer, and an argument of the type
+        // that the operator class gives the strategy.
+        let (key, leaf, query) = unsafe {
+            recheck.as_ptr().write(false);
+            let entry = &*entry.as_ptr();
+            let query = Query::of(strategy.cast_unsigned(), query.as_ptr().into());
+            (key(entry), is_leaf(entry.page), query)
         };
-        penalty.as_ptr().write(growth as f32);
-        Internal::from(Some(pg_sys::Datum::from(penalty.as_ptr())))
+        if leaf {
+            query.holds(call, &key)
+        } else {
+            query.possible(call, &BoxRange::inside(&key))
+        }
     }
 }
 
-/// Divides the entries of a full page in two.
-#[pg_extern(immutable, strict, parallel_safe)]
-fn box3d_gist_picksplit(
-    entries: Raw<pg_sys::GistEntryVector>,
-    result: Raw<pg_sys::GIST_SPLITVEC>,
-) -> Internal {
-    // Offsets count from 1: slot 0 is unused.
-    let keys = keys(&entries, 1);
-    let halves = split(&keys);
-    // SAFETY: GiST passes a GIST_SPLITVEC to fill; the arrays are palloc'd, large enough and
-    // outlive the call in its memory context.
-    unsafe {
-        let result_ptr = result.as_ptr();
-        (*result_ptr).spl_left = offsets(&halves[0]);
-        (*result_ptr).spl_nleft = count(&halves[0]);
-        (*result_ptr).spl_ldatum = boxed(&keys, &halves[0]);
-        (*result_ptr).spl_right = offsets(&halves[1]);
-        (*result_ptr).spl_nright = count(&halves[1]);
-        (*result_ptr).spl_rdatum = boxed(&keys, &halves[1]);
-        Internal::from(Some(pg_sys::Datum::from(result_ptr)))
+direct_function! {
+    /// The distance of a key from the query, for scans that return the nearest first.
+    fn box3d_gist_distance(
+        entry: Raw<pg_sys::GISTENTRY>,
+        query: Raw<u8>,
+        strategy: i16,
+        _subtype: pg_sys::Oid,
+        recheck: Raw<bool>,
+    ) -> f64 {
+        // SAFETY: as for box3d_gist_consistent.
+        unsafe {
+            recheck.as_ptr().write(false);
+            let nearest = Nearest::of(strategy.cast_unsigned(), query.as_ptr().into());
+            nearest.distance(&key(&*entry.as_ptr()))
+        }
     }
 }
 
-/// Whether two keys are equal.
-#[pg_extern(immutable, strict, parallel_safe)]
-fn box3d_gist_same(a: Box3d, b: Box3d, result: Raw<bool>) -> Internal {
-    // SAFETY: GiST passes a place for the answer.
-    unsafe { result.as_ptr().write(a.0 == b.0) };
-    Internal::from(Some(pg_sys::Datum::from(result.as_ptr())))
+direct_function! {
+    /// The smallest box around all entries.
+    fn box3d_gist_union(entries: Raw<pg_sys::GistEntryVector>, _size: Raw<i32>) -> Box3d {
+        let keys = keys(&entries, 0);
+        Box3d(around(&keys))
+    }
 }
 
-/// The value of a key: the key itself.
-#[pg_extern(immutable, strict, parallel_safe)]
-fn box3d_gist_fetch(entry: Raw<pg_sys::GISTENTRY>) -> Internal {
-    Internal::from(Some(pg_sys::Datum::from(entry.as_ptr())))
+direct_function! {
+    /// How much worse a subtree gets by taking an entry: growth in volume, and, where that is
+    /// nothing (all boxes flat), in margin.
+    fn box3d_gist_penalty(
+        original: Raw<pg_sys::GISTENTRY>,
+        added: Raw<pg_sys::GISTENTRY>,
+        penalty: Raw<f32>,
+    ) -> *mut f32 {
+        // SAFETY: GiST passes two entries of ours and a place for the answer.
+        unsafe {
+            let (original, added) = (key(&*original.as_ptr()), key(&*added.as_ptr()));
+            let grown = original.union(&added);
+            let by_volume = grown.volume() - original.volume();
+            let growth = if by_volume > 0.0 {
+                by_volume
+            } else {
+                (grown.margin() - original.margin()) * 1e-6
+            };
+            penalty.as_ptr().write(growth as f32);
+        }
+        penalty.as_ptr()
+    }
+}
+
+direct_function! {
+    /// Divides the entries of a full page in two.
+    fn box3d_gist_picksplit(
+        entries: Raw<pg_sys::GistEntryVector>,
+        result: Raw<pg_sys::GIST_SPLITVEC>,
+    ) -> *mut pg_sys::GIST_SPLITVEC {
+        // Offsets count from 1: slot 0 is unused.
+        let keys = keys(&entries, 1);
+        let halves = split(&keys);
+        // SAFETY: GiST passes a GIST_SPLITVEC to fill; the arrays are palloc'd, large enough and
+        // outlive the call in its memory context.
+        unsafe {
+            let result_ptr = result.as_ptr();
+            (*result_ptr).spl_left = offsets(&halves[0]);
+            (*result_ptr).spl_nleft = count(&halves[0]);
+            (*result_ptr).spl_ldatum = boxed(&keys, &halves[0]);
+            (*result_ptr).spl_right = offsets(&halves[1]);
+            (*result_ptr).spl_nright = count(&halves[1]);
+            (*result_ptr).spl_rdatum = boxed(&keys, &halves[1]);
+        }
+        result.as_ptr()
+    }
+}
+
+direct_function! {
+    /// Whether two keys are equal.
+    fn box3d_gist_same(a: Box3d, b: Box3d, result: Raw<bool>) -> *mut bool {
+        // SAFETY: GiST passes a place for the answer.
+        unsafe { result.as_ptr().write(a.0 == b.0) };
+        result.as_ptr()
+    }
+}
+
+direct_function! {
+    /// The value of a key: the key itself.
+    fn box3d_gist_fetch(entry: Raw<pg_sys::GISTENTRY>) -> *mut pg_sys::GISTENTRY {
+        entry.as_ptr()
+    }
 }
 
 /// The box of an entry.

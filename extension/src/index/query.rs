@@ -11,10 +11,18 @@ use pgrx::{IntoDatum, PgSqlErrorCode, pg_sys};
 /// core's, as far as core knows them. An operator with another right side has one of its own, so
 /// that the number says what the argument is.
 mod strategy {
-    pub const BEFORE: [u16; 3] = [1, 10, 30];
-    pub const NOT_AFTER: [u16; 3] = [2, 9, 29];
-    pub const NOT_BEFORE: [u16; 3] = [4, 12, 32];
-    pub const AFTER: [u16; 3] = [5, 11, 31];
+    pub const BEFORE_X: u16 = 1;
+    pub const NOT_AFTER_X: u16 = 2;
+    pub const NOT_BEFORE_X: u16 = 4;
+    pub const AFTER_X: u16 = 5;
+    pub const NOT_AFTER_Y: u16 = 9;
+    pub const BEFORE_Y: u16 = 10;
+    pub const AFTER_Y: u16 = 11;
+    pub const NOT_BEFORE_Y: u16 = 12;
+    pub const NOT_AFTER_Z: u16 = 29;
+    pub const BEFORE_Z: u16 = 30;
+    pub const AFTER_Z: u16 = 31;
+    pub const NOT_BEFORE_Z: u16 = 32;
     pub const OVERLAPS: u16 = 3;
     pub const SAME: u16 = 6;
     pub const CONTAINS: u16 = 7;
@@ -132,19 +140,28 @@ impl Nearest {
 }
 
 /// The relation that a strategy number stands for, if its argument is a box.
+#[inline]
 fn relation(strategy: u16) -> Option<BoxRelation> {
-    let axis = |numbers: [u16; 3]| numbers.iter().position(|&number| number == strategy);
-    match strategy {
-        strategy::OVERLAPS => Some(BoxRelation::Overlaps),
-        strategy::SAME | strategy::EQUALS => Some(BoxRelation::Equals),
-        strategy::CONTAINS => Some(BoxRelation::Contains),
-        strategy::CONTAINED_BY => Some(BoxRelation::ContainedBy),
-        _ => axis(strategy::BEFORE)
-            .map(BoxRelation::Before)
-            .or_else(|| axis(strategy::NOT_AFTER).map(BoxRelation::NotAfter))
-            .or_else(|| axis(strategy::NOT_BEFORE).map(BoxRelation::NotBefore))
-            .or_else(|| axis(strategy::AFTER).map(BoxRelation::After)),
-    }
+    use BoxRelation::{After, Before, NotAfter, NotBefore};
+    Some(match strategy {
+        strategy::OVERLAPS => BoxRelation::Overlaps,
+        strategy::SAME | strategy::EQUALS => BoxRelation::Equals,
+        strategy::CONTAINS => BoxRelation::Contains,
+        strategy::CONTAINED_BY => BoxRelation::ContainedBy,
+        strategy::BEFORE_X => Before(0),
+        strategy::BEFORE_Y => Before(1),
+        strategy::BEFORE_Z => Before(2),
+        strategy::NOT_AFTER_X => NotAfter(0),
+        strategy::NOT_AFTER_Y => NotAfter(1),
+        strategy::NOT_AFTER_Z => NotAfter(2),
+        strategy::NOT_BEFORE_X => NotBefore(0),
+        strategy::NOT_BEFORE_Y => NotBefore(1),
+        strategy::NOT_BEFORE_Z => NotBefore(2),
+        strategy::AFTER_X => After(0),
+        strategy::AFTER_Y => After(1),
+        strategy::AFTER_Z => After(2),
+        _ => return None,
+    })
 }
 
 /// The part of a box that finite boxes can be in.

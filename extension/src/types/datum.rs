@@ -46,6 +46,22 @@ macro_rules! fixed_length_type {
             }
         }
 
+        impl $crate::direct_call::Argument for $type {
+            unsafe fn take(arguments: &mut $crate::direct_call::Arguments) -> Self {
+                // SAFETY: as the caller says, and as above.
+                unsafe { *arguments.next::<$crate::types::Raw<Self>>().as_ptr() }
+            }
+        }
+
+        impl $crate::direct_call::Returned for $type {
+            fn datum(self) -> pgrx::pg_sys::Datum {
+                match pgrx::IntoDatum::into_datum(self) {
+                    Some(datum) => datum,
+                    None => unreachable!("a value is not null"),
+                }
+            }
+        }
+
         // SAFETY: the result is a pointer to a copy in the caller's memory context.
         unsafe impl pgrx::callconv::BoxRet for $type {
             unsafe fn box_into<'fcx>(
@@ -67,6 +83,15 @@ pub(super) use fixed_length_type;
 pub struct Raw<T>(NonNull<T>);
 
 impl<T> Raw<T> {
+    /// A pointer that PostgreSQL passed.
+    ///
+    /// # Safety
+    /// It must not be null.
+    pub unsafe fn of(pointer: *mut T) -> Self {
+        // SAFETY: as the caller says.
+        Self(unsafe { NonNull::new_unchecked(pointer) })
+    }
+
     /// The pointer itself.
     pub fn as_ptr(&self) -> *mut T {
         self.0.as_ptr()

@@ -67,49 +67,58 @@ macro_rules! ordered_type {
             }
         }
 
-        #[pgrx::pg_extern(immutable, strict, parallel_safe)]
-        fn $equals(a: $type, b: $type) -> bool {
-            $crate::types::ordering::Numbers::compare(&a, &b).is_eq()
+        $crate::direct_call::direct_function! {
+            fn $equals(a: $type, b: $type) -> bool {
+                $crate::types::ordering::Numbers::compare(&a, &b).is_eq()
+            }
         }
 
-        #[pgrx::pg_extern(immutable, strict, parallel_safe)]
-        fn $differs(a: $type, b: $type) -> bool {
-            $crate::types::ordering::Numbers::compare(&a, &b).is_ne()
+        $crate::direct_call::direct_function! {
+            fn $differs(a: $type, b: $type) -> bool {
+                $crate::types::ordering::Numbers::compare(&a, &b).is_ne()
+            }
         }
 
-        #[pgrx::pg_extern(immutable, strict, parallel_safe)]
-        fn $less(a: $type, b: $type) -> bool {
-            $crate::types::ordering::Numbers::compare(&a, &b).is_lt()
+        $crate::direct_call::direct_function! {
+            fn $less(a: $type, b: $type) -> bool {
+                $crate::types::ordering::Numbers::compare(&a, &b).is_lt()
+            }
         }
 
-        #[pgrx::pg_extern(immutable, strict, parallel_safe)]
-        fn $less_or_equal(a: $type, b: $type) -> bool {
-            $crate::types::ordering::Numbers::compare(&a, &b).is_le()
+        $crate::direct_call::direct_function! {
+            fn $less_or_equal(a: $type, b: $type) -> bool {
+                $crate::types::ordering::Numbers::compare(&a, &b).is_le()
+            }
         }
 
-        #[pgrx::pg_extern(immutable, strict, parallel_safe)]
-        fn $greater_or_equal(a: $type, b: $type) -> bool {
-            $crate::types::ordering::Numbers::compare(&a, &b).is_ge()
+        $crate::direct_call::direct_function! {
+            fn $greater_or_equal(a: $type, b: $type) -> bool {
+                $crate::types::ordering::Numbers::compare(&a, &b).is_ge()
+            }
         }
 
-        #[pgrx::pg_extern(immutable, strict, parallel_safe)]
-        fn $greater(a: $type, b: $type) -> bool {
-            $crate::types::ordering::Numbers::compare(&a, &b).is_gt()
+        $crate::direct_call::direct_function! {
+            fn $greater(a: $type, b: $type) -> bool {
+                $crate::types::ordering::Numbers::compare(&a, &b).is_gt()
+            }
         }
 
-        #[pgrx::pg_extern(immutable, strict, parallel_safe)]
-        fn $compare(a: $type, b: $type) -> i32 {
-            $crate::types::ordering::Numbers::compare(&a, &b) as i32
+        $crate::direct_call::direct_function! {
+            fn $compare(a: $type, b: $type) -> i32 {
+                $crate::types::ordering::Numbers::compare(&a, &b) as i32
+            }
         }
 
-        #[pgrx::pg_extern(immutable, strict, parallel_safe)]
-        fn $hash(value: $type) -> i32 {
-            $crate::types::ordering::Numbers::hash(&value)
+        $crate::direct_call::direct_function! {
+            fn $hash(value: $type) -> i32 {
+                $crate::types::ordering::Numbers::hash(&value)
+            }
         }
 
-        #[pgrx::pg_extern(immutable, strict, parallel_safe)]
-        fn $hash_extended(value: $type, seed: i64) -> i64 {
-            $crate::types::ordering::Numbers::hash_extended(&value, seed)
+        $crate::direct_call::direct_function! {
+            fn $hash_extended(value: $type, seed: i64) -> i64 {
+                $crate::types::ordering::Numbers::hash_extended(&value, seed)
+            }
         }
     };
 }

@@ -1,19 +1,22 @@
 //! Functions of boxes: their parts, sizes and distances, and boxes made of boxes.
 
 use super::Box3d;
+use crate::direct_call::direct_function;
 use crate::error::or_raise;
 use crate::types::Point3d;
 use crate::types::number::finite;
 use pgrx::pg_extern;
 
-#[pg_extern(immutable, strict, parallel_safe)]
-fn box3d_lower(value: Box3d) -> Point3d {
-    Point3d(value.0.min)
+direct_function! {
+    fn box3d_lower(value: Box3d) -> Point3d {
+        Point3d(value.0.min)
+    }
 }
 
-#[pg_extern(immutable, strict, parallel_safe)]
-fn box3d_upper(value: Box3d) -> Point3d {
-    Point3d(value.0.max)
+direct_function! {
+    fn box3d_upper(value: Box3d) -> Point3d {
+        Point3d(value.0.max)
+    }
 }
 
 #[pg_extern(immutable, strict, parallel_safe)]
@@ -64,9 +67,10 @@ fn box3d_intersection(a: Box3d, b: Box3d) -> Option<Box3d> {
     a.0.intersection(&b.0).map(Box3d)
 }
 
-#[pg_extern(immutable, strict, parallel_safe)]
-fn box3d_merge(a: Box3d, b: Box3d) -> Box3d {
-    Box3d(a.0.union(&b.0))
+direct_function! {
+    fn box3d_merge(a: Box3d, b: Box3d) -> Box3d {
+        Box3d(a.0.union(&b.0))
+    }
 }
 
 /// The step of the aggregate of points.
@@ -79,19 +83,22 @@ fn box3d_extend(extent: Option<Box3d>, point: Option<Point3d>) -> Option<Box3d> 
     }
 }
 
-#[pg_extern(immutable, strict, parallel_safe)]
-fn box3d_distance(a: Box3d, b: Box3d) -> f64 {
-    a.0.distance(&b.0)
+direct_function! {
+    fn box3d_distance(a: Box3d, b: Box3d) -> f64 {
+        a.0.distance(&b.0)
+    }
 }
 
-#[pg_extern(immutable, strict, parallel_safe)]
-fn box3d_distance_point(a: Box3d, point: Point3d) -> f64 {
-    a.0.distance_to_point(point.0)
+direct_function! {
+    fn box3d_distance_point(a: Box3d, point: Point3d) -> f64 {
+        a.0.distance_to_point(point.0)
+    }
 }
 
-#[pg_extern(immutable, strict, parallel_safe)]
-fn point3d_distance_box(point: Point3d, a: Box3d) -> f64 {
-    a.0.distance_to_point(point.0)
+direct_function! {
+    fn point3d_distance_box(point: Point3d, a: Box3d) -> f64 {
+        a.0.distance_to_point(point.0)
+    }
 }
 
 #[pg_extern(immutable, strict, parallel_safe)]

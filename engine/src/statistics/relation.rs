@@ -1,0 +1,12 @@
+//! [`Relation`], how a box of a column stands to a query.
+
+/// What an operator asks of a box and a query, the box first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// They share a point.
+    Overlaps,
+    /// The box holds the query.
+    Contains,
+    /// The query holds the box.
+    ContainedBy,
+}

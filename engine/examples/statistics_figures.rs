@@ -2,20 +2,18 @@
 //! of 1,000 queries that hold 0.1 to 10 % of the rows and are estimated within a factor of 2, and
 //! of the smaller ones within a factor of 5 or 50 rows.
 //!
-//!     cargo run --release -p engine --example statistics_figures [ROWS] [GROUP]
+//!     cargo run --release -p engine --example statistics_figures [ROWS] [GROUPS]
 //!
-//! with ROWS boxes of each kind, of which 30,000 are sampled, in groups of GROUP.
+//! with ROWS boxes of each kind, of which 30,000 are sampled, in GROUPS groups.
 
-use engine::{
-    Box3d, BoxStatistics, CityLayout, Relation, ViewCone, ViewSector, generated_city,
-};
+use engine::{Box3d, BoxStatistics, CityLayout, Relation, ViewCone, ViewSector, generated_city};
 use glam::DVec3;
 use std::time::Instant;
 
 /// What ANALYZE samples at PostgreSQL's default statistics target.
 const SAMPLE: usize = 30_000;
 /// Queries of each kind.
-const QUERIES: usize = 1_000;
+const QUERIES: usize = 300;
 
 /// Linear congruential numbers in [0, 1), the same everywhere.
 struct Random(u64);
@@ -79,7 +77,10 @@ fn kinds(rows: usize) -> Vec<(&'static str, Vec<Box3d>)> {
     let sizes = boxes(&mut |r| {
         let corner = r.point() * extent;
         let size = 10f64.powf(r.unit() * 3.0);
-        Box3d::new(corner, corner + DVec3::new(size, size * r.unit(), r.unit() * 30.0))
+        Box3d::new(
+            corner,
+            corner + DVec3::new(size, size * r.unit(), r.unit() * 30.0),
+        )
     });
     let volumes_200 = boxes(&mut volumes(200.0));
     let volumes_2000 = boxes(&mut volumes(2_000.0));
@@ -119,7 +120,10 @@ impl Score {
 
     fn print(&self) -> String {
         let percent = |[good, all]: [usize; 2]| {
-            format!("{:5.1} % of {all:4}", 100.0 * good as f64 / all.max(1) as f64)
+            format!(
+                "{:5.1} % of {all:4}",
+                100.0 * good as f64 / all.max(1) as f64
+            )
         };
         format!("{} {}", percent(self.large), percent(self.small))
     }
@@ -130,14 +134,22 @@ fn full(score: &Score) -> bool {
     score.large[1] >= QUERIES
 }
 
-type Query = (String, Box<dyn Fn(&Box3d) -> bool>, Box<dyn Fn(&BoxStatistics) -> f64>);
+type Query = (
+    String,
+    Box<dyn Fn(&Box3d) -> bool>,
+    Box<dyn Fn(&BoxStatistics) -> f64>,
+);
 
 /// Query number of a kind, about `size` of the extent.
 fn query(kind: &str, random: &mut Random, boxes: &[Box3d], extent: &Box3d) -> Query {
     let anywhere = extent.min + extent.size() * random.point();
     let some_box = boxes[(random.unit() * boxes.len() as f64) as usize];
     let on_box = some_box.center();
-    let centre = if random.unit() < 0.5 { on_box } else { anywhere };
+    let centre = if random.unit() < 0.5 {
+        on_box
+    } else {
+        anywhere
+    };
     let share = 10f64.powf(-4.0 + 4.0 * random.unit());
     let plan = extent.size().truncate().max_element() * share.sqrt();
     match kind {
@@ -151,7 +163,13 @@ fn query(kind: &str, random: &mut Random, boxes: &[Box3d], extent: &Box3d) -> Qu
             boxed(kind, Box3d::new(on_box - half, on_box + half))
         }
         "&& cone" => {
-            let cone = ViewCone::new(centre, 6.3 * random.unit(), 0.2 + 2.0 * random.unit(), plan, 0.0);
+            let cone = ViewCone::new(
+                centre,
+                6.3 * random.unit(),
+                0.2 + 2.0 * random.unit(),
+                plan,
+                0.0,
+            );
             (
                 kind.into(),
                 Box::new(move |b| cone.meets(b)),
@@ -193,10 +211,16 @@ fn boxed(kind: &str, query: Box3d) -> Query {
 
 fn main() {
     let argument = |at: usize, default: usize| {
-        std::env::args().nth(at).and_then(|a| a.parse().ok()).unwrap_or(default)
+        std::env::args()
+            .nth(at)
+            .and_then(|a| a.parse().ok())
+            .unwrap_or(default)
     };
-    let (rows, group) = (argument(1, 100_000), argument(2, 30));
+    let (rows, groups) = (argument(1, 100_000), argument(2, 1_600));
     for (name, boxes) in kinds(rows) {
+        if std::env::var("K").is_ok_and(|k| !k.split(",").any(|k| k == name)) {
+            continue;
+        }
         let mut random = Random(3);
         let mut sample: Vec<Box3d> = boxes.clone();
         let kept = SAMPLE.min(boxes.len());
@@ -206,7 +230,7 @@ fn main() {
         }
         sample.truncate(kept);
         let start = Instant::now();
-        let statistics = BoxStatistics::of_sample(&mut sample, group);
+        let statistics = BoxStatistics::of_sample(&mut sample, groups);
         let built = start.elapsed();
         println!(
             "{name}: {} rows, {} bytes, built in {built:.0?}",
@@ -214,7 +238,15 @@ fn main() {
             4 * statistics.to_numbers().len()
         );
         let extent = Box3d::around(boxes.iter().flat_map(|b| [b.min, b.max])).unwrap();
-        for kind in ["&& box", "&& column", "<@ box", "<@ column", "@> inside", "&& cone", "&& sector"] {
+        for kind in [
+            "&& box",
+            "&& column",
+            "<@ box",
+            "<@ column",
+            "@> inside",
+            "&& cone",
+            "&& sector",
+        ] {
             let mut score = Score::default();
             let (mut asked, mut took) = (0, std::time::Duration::ZERO);
             while !full(&score) && asked < 3 * QUERIES {
@@ -226,7 +258,11 @@ fn main() {
                 asked += 1;
                 score.add(share * boxes.len() as f64, count, boxes.len() as f64);
             }
-            println!("    {kind:10} {}  {:.1?} each", score.print(), took / asked.max(1) as u32);
+            println!(
+                "    {kind:10} {}  {:.1?} each",
+                score.print(),
+                took / asked.max(1) as u32
+            );
         }
         let start = Instant::now();
         let pairs = statistics.share_of_pairs(Relation::Overlaps, &statistics);

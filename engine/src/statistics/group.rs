@@ -95,12 +95,12 @@ impl Group {
                 product(&|i| lower[i].share_to(high[i]) - upper[i].share_before(low[i]))
             }
             // Exact for boxes of one size.
-            Relation::Contains => product(&|i| {
-                (lower[i].share_to(low[i]) - upper[i].share_before(high[i])).max(0.0)
-            }),
-            Relation::ContainedBy => product(&|i| {
-                (upper[i].share_to(high[i]) - lower[i].share_before(low[i])).max(0.0)
-            }),
+            Relation::Contains => {
+                product(&|i| (lower[i].share_to(low[i]) - upper[i].share_before(high[i])).max(0.0))
+            }
+            Relation::ContainedBy => {
+                product(&|i| (upper[i].share_to(high[i]) - lower[i].share_before(low[i])).max(0.0))
+            }
         }
     }
 }

@@ -36,11 +36,11 @@ pub struct BoxStatistics {
 }
 
 impl BoxStatistics {
-    /// Summarises a sample, which it reorders, in groups of at most `rows` boxes.
+    /// Summarises a sample, which it reorders, in at most `groups` groups.
     #[must_use]
-    pub fn of_sample(boxes: &mut [Box3d], rows: usize) -> Self {
+    pub fn of_sample(boxes: &mut [Box3d], groups: usize) -> Self {
         Self {
-            groups: partition::groups(boxes, rows),
+            groups: partition::groups(boxes, groups),
         }
     }
 
@@ -52,7 +52,10 @@ impl BoxStatistics {
         if *layout != LAYOUT || stored.is_empty() || !left_over.is_empty() {
             return None;
         }
-        let groups = stored.iter().map(Group::from_numbers).collect::<Option<_>>()?;
+        let groups = stored
+            .iter()
+            .map(Group::from_numbers)
+            .collect::<Option<_>>()?;
         Some(Self { groups })
     }
 
@@ -94,15 +97,16 @@ impl BoxStatistics {
     #[must_use]
     pub fn share_of_pairs(&self, relation: Relation, other: &Self) -> f64 {
         let step = other.groups.len().div_ceil(JOIN_EXAMPLES).max(1);
-        let (weight, met) = other
-            .groups
-            .iter()
-            .enumerate()
-            .step_by(step)
-            .fold((0.0, 0.0), |(weight, met), (number, group)| {
+        let (weight, met) = other.groups.iter().enumerate().step_by(step).fold(
+            (0.0, 0.0),
+            |(weight, met), (number, group)| {
                 let w = f64::from(group.weight);
-                (weight + w, met + w * self.share(relation, &group.example(number)))
-            });
+                (
+                    weight + w,
+                    met + w * self.share(relation, &group.example(number)),
+                )
+            },
+        );
         if weight > 0.0 { met / weight } else { 0.0 }
     }
 

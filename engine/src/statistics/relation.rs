@@ -10,3 +10,15 @@ pub enum Relation {
     /// The query holds the box.
     ContainedBy,
 }
+
+impl Relation {
+    /// What is asked of the query and the box, the other way round.
+    #[must_use]
+    pub fn commuted(self) -> Self {
+        match self {
+            Self::Overlaps => Self::Overlaps,
+            Self::Contains => Self::ContainedBy,
+            Self::ContainedBy => Self::Contains,
+        }
+    }
+}

@@ -1,0 +1,2 @@
+-- include sql/35_planner.sql
+-- include sql/85_planner_queries.sql

@@ -32,3 +32,27 @@ pub fn distinct_boxes(sample: &mut [Box3d], total: f64) -> f64 {
     }
     (n * d / (n - f1 + f1 * n / total)).clamp(d, total)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    fn sample(kinds: usize, rows: usize) -> Vec<Box3d> {
+        (0..rows)
+            .map(|i| Box3d::new(DVec3::ZERO, DVec3::splat((i % kinds) as f64)))
+            .collect()
+    }
+
+    #[test]
+    fn unique_boxes_grow_with_the_table() {
+        assert_eq!(distinct_boxes(&mut sample(1_000, 1_000), 1e6), 1e6);
+    }
+
+    #[test]
+    fn boxes_seen_often_are_all_there_are() {
+        assert_eq!(distinct_boxes(&mut sample(10, 1_000), 1e6), 10.0);
+        assert_eq!(distinct_boxes(&mut sample(1, 1_000), 1e6), 1.0);
+        assert_eq!(distinct_boxes(&mut [], 0.0), 0.0);
+    }
+}

@@ -87,20 +87,22 @@ impl Group {
 
     /// The share of the group's boxes that stand in `relation` to the box from `low` to `high`.
     pub fn share(&self, relation: Relation, low: [f32; 3], high: [f32; 3]) -> f64 {
-        let product = |along: &dyn Fn(usize) -> f64| (0..3).map(along).product();
         let (lower, upper) = (&self.lower, &self.upper);
-        match relation {
+        let along = |i: usize| match relation {
             // Exact for each axis: whoever ends before the query starts before its end.
-            Relation::Overlaps => {
-                product(&|i| lower[i].share_to(high[i]) - upper[i].share_before(low[i]))
-            }
+            Relation::Overlaps => lower[i].share_to(high[i]) - upper[i].share_before(low[i]),
             // Exact for boxes of one size.
-            Relation::Contains => {
-                product(&|i| (lower[i].share_to(low[i]) - upper[i].share_before(high[i])).max(0.0))
-            }
-            Relation::ContainedBy => {
-                product(&|i| (upper[i].share_to(high[i]) - lower[i].share_before(low[i])).max(0.0))
+            Relation::Contains => lower[i].share_to(low[i]) - upper[i].share_before(high[i]),
+            Relation::ContainedBy => upper[i].share_to(high[i]) - lower[i].share_before(low[i]),
+        };
+        // Most groups are far away along one axis already.
+        let mut share = 1.0;
+        for axis in 0..3 {
+            share *= along(axis);
+            if share <= 0.0 {
+                return 0.0;
             }
         }
+        share
     }
 }

@@ -23,3 +23,9 @@ COMMENT ON FUNCTION occlusion.feature_models_support(internal) IS
     'planner support: rows of feature_models, one for each feature asked for';
 ALTER FUNCTION occlusion.feature_models(text, bigint[], text, float8, float8[])
     SUPPORT occlusion.feature_models_support;
+
+CREATE FUNCTION occlusion.feature_set_unnest_support(internal) RETURNS internal
+    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'feature_set_unnest_support_wrapper';
+COMMENT ON FUNCTION occlusion.feature_set_unnest_support(internal) IS
+    'planner support: rows of unnest, the numbers in the set';
+ALTER FUNCTION occlusion.unnest(occlusion.feature_set) SUPPORT occlusion.feature_set_unnest_support;

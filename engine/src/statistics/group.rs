@@ -1,7 +1,7 @@
 //! [`Group`], boxes that lie near each other and are of like size, as the statistics keep them.
 
-use super::{Interval, Relation};
-use crate::Box3d;
+use super::Interval;
+use crate::{Box3d, BoxRelation};
 use glam::DVec3;
 
 /// Numbers that a group is stored as.
@@ -86,23 +86,40 @@ impl Group {
     }
 
     /// The share of the group's boxes that stand in `relation` to the box from `low` to `high`.
-    pub fn share(&self, relation: Relation, low: [f32; 3], high: [f32; 3]) -> f64 {
+    pub fn share(&self, relation: BoxRelation, low: [f32; 3], high: [f32; 3]) -> f64 {
         let (lower, upper) = (&self.lower, &self.upper);
-        let along = |i: usize| match relation {
+        match relation {
             // Exact for each axis: whoever ends before the query starts before its end.
-            Relation::Overlaps => lower[i].share_to(high[i]) - upper[i].share_before(low[i]),
-            // Exact for boxes of one size.
-            Relation::Contains => lower[i].share_to(low[i]) - upper[i].share_before(high[i]),
-            Relation::ContainedBy => upper[i].share_to(high[i]) - lower[i].share_before(low[i]),
-        };
-        // Most groups are far away along one axis already.
-        let mut share = 1.0;
-        for axis in 0..3 {
-            share *= along(axis);
-            if share <= 0.0 {
-                return 0.0;
+            BoxRelation::Overlaps => {
+                product(|i| lower[i].share_to(high[i]) - upper[i].share_before(low[i]))
             }
+            // Exact for boxes of one size.
+            BoxRelation::Contains => {
+                product(|i| lower[i].share_to(low[i]) - upper[i].share_before(high[i]))
+            }
+            BoxRelation::ContainedBy => {
+                product(|i| upper[i].share_to(high[i]) - lower[i].share_before(low[i]))
+            }
+            BoxRelation::Equals => {
+                product(|i| lower[i].share_at(low[i]) * upper[i].share_at(high[i]))
+            }
+            BoxRelation::Before(axis) => upper[axis].share_before(low[axis]),
+            BoxRelation::NotAfter(axis) => upper[axis].share_to(high[axis]),
+            BoxRelation::NotBefore(axis) => 1.0 - lower[axis].share_before(low[axis]),
+            BoxRelation::After(axis) => 1.0 - lower[axis].share_to(high[axis]),
         }
-        share
     }
+}
+
+/// The product of a share along each axis, none of them less than 0. Most groups are far away along
+/// one axis already.
+fn product(along: impl Fn(usize) -> f64) -> f64 {
+    let mut share = 1.0;
+    for axis in 0..3 {
+        share *= along(axis);
+        if share <= 0.0 {
+            return 0.0;
+        }
+    }
+    share
 }

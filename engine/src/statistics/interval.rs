@@ -68,6 +68,11 @@ impl Interval {
         }
     }
 
+    /// The share of the coordinates that are `place`: all of them or none, as far as is known.
+    pub fn share_at(&self, place: f32) -> f64 {
+        self.share_to(place) - self.share_before(place)
+    }
+
     /// How far along the interval a coordinate in it lies; only asked where it has a length.
     fn way_to(&self, coordinate: f32) -> f64 {
         let from = |c: f32| f64::from(c) - f64::from(self.low);

@@ -1,16 +1,11 @@
 //! [`BoxStatistics`], what a planner keeps of a column of boxes: it estimates which share of them
 //! a query meets.
 
-mod distinct;
 mod group;
 mod interval;
 mod partition;
-mod relation;
 
-pub use distinct::distinct_boxes;
-pub use relation::Relation;
-
-use crate::Box3d;
+use crate::{Box3d, BoxRelation};
 use group::{Group, NUMBERS};
 use interval::{Interval, rounded};
 
@@ -69,7 +64,7 @@ impl BoxStatistics {
 
     /// The share of the boxes that stand in `relation` to `query`, 0 to 1.
     #[must_use]
-    pub fn share(&self, relation: Relation, query: &Box3d) -> f64 {
+    pub fn share(&self, relation: BoxRelation, query: &Box3d) -> f64 {
         let low = query.min.to_array().map(rounded);
         let high = query.max.to_array().map(rounded);
         self.sum(|group| group.share(relation, low, high))
@@ -95,7 +90,7 @@ impl BoxStatistics {
     /// The share of all pairs of a box of this column and one of another that stand in
     /// `relation`, this one first; 0 to 1.
     #[must_use]
-    pub fn share_of_pairs(&self, relation: Relation, other: &Self) -> f64 {
+    pub fn share_of_pairs(&self, relation: BoxRelation, other: &Self) -> f64 {
         let step = other.groups.len().div_ceil(JOIN_EXAMPLES).max(1);
         let (weight, met) = other.groups.iter().enumerate().step_by(step).fold(
             (0.0, 0.0),
@@ -146,10 +141,10 @@ mod tests {
         prop::collection::vec(one, 1..60)
     }
 
-    const ALL: [Relation; 3] = [
-        Relation::Overlaps,
-        Relation::Contains,
-        Relation::ContainedBy,
+    const ALL: [BoxRelation; 3] = [
+        BoxRelation::Overlaps,
+        BoxRelation::Contains,
+        BoxRelation::ContainedBy,
     ];
 
     #[test]
@@ -164,11 +159,14 @@ mod tests {
             let overlaps = share(&|b| b.overlaps(&query));
             let inside = share(&|b| query.contains(b));
             for (estimate, truth) in [
-                (statistics.share(Relation::Overlaps, &query), overlaps),
-                (statistics.share(Relation::ContainedBy, &query), inside),
+                (statistics.share(BoxRelation::Overlaps, &query), overlaps),
+                (statistics.share(BoxRelation::ContainedBy, &query), inside),
                 (statistics.share_meeting(|b| b.overlaps(&query)), overlaps),
             ] {
-                assert!((0.6..1.6).contains(&(estimate / truth)), "{estimate} {truth}");
+                assert!(
+                    (0.6..1.6).contains(&(estimate / truth)),
+                    "{estimate} {truth}"
+                );
             }
         }
     }
@@ -188,7 +186,7 @@ mod tests {
             assert_eq!(statistics.share(relation, &away), 0.0, "{relation:?}");
         }
         assert_eq!(
-            statistics.share_of_pairs(Relation::Overlaps, &statistics),
+            statistics.share_of_pairs(BoxRelation::Overlaps, &statistics),
             1.0
         );
     }
@@ -204,7 +202,7 @@ mod tests {
         let others = BoxStatistics::of_sample(&mut wide.clone(), 400);
         // Every wide box meets 3 × 3 × 3 of the lattice, fewer at its sides.
         let truth = (58.0_f64 / 400.0).powi(3);
-        let estimate = statistics.share_of_pairs(Relation::Overlaps, &others);
+        let estimate = statistics.share_of_pairs(BoxRelation::Overlaps, &others);
         assert!(
             (0.5..2.0).contains(&(estimate / truth)),
             "{estimate} {truth}"
@@ -253,7 +251,7 @@ mod tests {
                 let meeting = statistics.share_meeting(|b| b.overlaps(query));
                 prop_assert!((0.0..=1.0).contains(&meeting));
             }
-            let pairs = statistics.share_of_pairs(Relation::Overlaps, &statistics);
+            let pairs = statistics.share_of_pairs(BoxRelation::Overlaps, &statistics);
             prop_assert!((0.0..=1.0).contains(&pairs));
         }
 
@@ -261,7 +259,7 @@ mod tests {
         fn a_query_around_all_holds_all(mut boxes in boxes()) {
             let around = boxes.iter().copied().reduce(|a, b| a.union(&b)).expect("at least one");
             let statistics = BoxStatistics::of_sample(&mut boxes, 5);
-            for relation in [Relation::Overlaps, Relation::ContainedBy] {
+            for relation in [BoxRelation::Overlaps, BoxRelation::ContainedBy] {
                 prop_assert!(statistics.share(relation, &around) > 1.0 - 1e-6);
             }
         }

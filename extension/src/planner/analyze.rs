@@ -2,7 +2,7 @@
 
 use super::column::STATISTICS_KIND;
 use crate::types::Raw;
-use engine::{Box3d, BoxStatistics, distinct_boxes};
+use engine::{Box3d, BoxStatistics};
 use pgrx::{pg_extern, pg_guard, pg_sys};
 
 /// Rows that ANALYZE samples for each step of the statistics target.
@@ -10,10 +10,6 @@ const ROWS_PER_TARGET: usize = 300;
 
 /// Groups of boxes for each step of the statistics target: 1,600 at the default of 100, some 83 kB.
 const GROUPS_PER_TARGET: usize = 16;
-
-/// From this share of the rows on, PostgreSQL takes the number of different values to grow with
-/// the table, and stores it as a negative share.
-const GROWING_SHARE: f64 = 0.1;
 
 /// What the standard analysis asked for, which runs before ours.
 struct Standard {
@@ -65,10 +61,6 @@ unsafe extern "C-unwind" fn compute(
         if boxes.is_empty() {
             return;
         }
-        if (*column).stadistinct == 0.0 {
-            let present = total * boxes.len() as f64 / f64::from(rows.max(1));
-            (*column).stadistinct = stored_distinct(distinct_boxes(&mut boxes, present), total);
-        }
         let target = usize::try_from((*column).minrows).unwrap_or(0) / ROWS_PER_TARGET;
         let groups = GROUPS_PER_TARGET * target.max(1);
         store(
@@ -100,15 +92,6 @@ unsafe fn sample(
             }
         })
         .collect()
-}
-
-/// A number of different values as PostgreSQL stores it.
-fn stored_distinct(distinct: f64, total: f64) -> f32 {
-    if distinct > GROWING_SHARE * total {
-        -(distinct / total.max(1.0)) as f32
-    } else {
-        distinct as f32
-    }
 }
 
 /// Puts our numbers into the first free slot; there is one, as the standard analysis takes three

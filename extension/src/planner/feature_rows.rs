@@ -4,7 +4,7 @@ use super::column::{analyzed, fixed_part};
 use super::query::{Query, read, type_name};
 use super::support::Arguments;
 use crate::types::Point3d;
-use engine::Relation;
+use engine::BoxRelation;
 use pgrx::{FromDatum, pg_sys};
 use std::ffi::{CStr, CString};
 
@@ -37,7 +37,7 @@ fn field_of_view(arguments: &Arguments) -> Option<Query> {
         Query::Bounds(_) if type_name(view.consttype) == "occlusion.point3d" => {
             // SAFETY: after an observer comes the range, of type float8.
             let range = unsafe { f64::from_datum(arguments.get(2)?.constvalue, false)? };
-            Some(Query::all_round(read::<Point3d>(view.constvalue).0, range))
+            Some(Query::InRange(read::<Point3d>(view.constvalue).0, range))
         }
         Query::Bounds(_) => None,
         view => Some(view),
@@ -114,7 +114,7 @@ impl Table {
             let analyzed = analyzed(tuple);
             pg_sys::ReleaseSysCache(tuple);
             let analyzed = analyzed?;
-            Some(query.share(&analyzed.boxes, Relation::Overlaps) * analyzed.present)
+            Some(query.share(&analyzed.boxes, BoxRelation::Overlaps) * analyzed.present)
         }
     }
 

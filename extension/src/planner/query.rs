@@ -1,55 +1,48 @@
 //! [`Query`], the constant that boxes are compared with.
 
-use crate::types::{Box3d, Point3d, ViewCone, ViewSector};
-use engine::{BoxStatistics, Relation};
+use crate::field_of_view::{FieldOfView, Prepared};
+use crate::types::{Box3d, Point3d};
+use engine::{BoxRelation, BoxStatistics};
 use glam::DVec3;
 use pgrx::pg_sys;
 use std::ffi::CStr;
-
-/// A test that each box passes or fails.
-type Test = Box<dyn Fn(&engine::Box3d) -> bool>;
 
 /// What boxes are compared with.
 pub enum Query {
     /// A box, or a point as a box.
     Bounds(engine::Box3d),
-    /// A field of view, which boxes meet or not.
-    FieldOfView(Test),
+    /// A field of view.
+    InView(Prepared),
+    /// All that is within a range of an eye, metres.
+    InRange(DVec3, f64),
 }
 
 impl Query {
     /// The query in a constant that is not null; `None` if it is of no type that is estimated.
     pub fn of(constant: &pg_sys::Const) -> Option<Self> {
         let value = constant.constvalue;
+        let in_view = |view: FieldOfView| Self::InView(view.prepared());
         Some(match type_name(constant.consttype).as_str() {
             "occlusion.box3d" => Self::Bounds(read::<Box3d>(value).0),
             "occlusion.point3d" => {
                 let point = read::<Point3d>(value).0;
                 Self::Bounds(engine::Box3d::new(point, point))
             }
-            "occlusion.view_cone" => {
-                let cone = read::<ViewCone>(value).in_radians();
-                Self::FieldOfView(Box::new(move |target| cone.meets(target)))
-            }
-            "occlusion.view_sector" => {
-                let sector = read::<ViewSector>(value).in_radians();
-                Self::FieldOfView(Box::new(move |target| sector.meets(target)))
-            }
+            "occlusion.view_cone" => in_view(FieldOfView::Cone(read(value))),
+            "occlusion.view_sector" => in_view(FieldOfView::Sector(read(value))),
             _ => return None,
         })
     }
 
-    /// All that is within a range of an eye.
-    pub fn all_round(eye: DVec3, range: f64) -> Self {
-        Self::FieldOfView(Box::new(move |target| engine::in_range(eye, range, target)))
-    }
-
     /// The share of boxes that stand in `relation` to the query; one that meets a field of view
     /// overlaps it.
-    pub fn share(&self, boxes: &BoxStatistics, relation: Relation) -> f64 {
+    pub fn share(&self, boxes: &BoxStatistics, relation: BoxRelation) -> f64 {
         match self {
             Self::Bounds(bounds) => boxes.share(relation, bounds),
-            Self::FieldOfView(meets) => boxes.share_meeting(meets),
+            Self::InView(view) => boxes.share_meeting(|target| view.meets(target)),
+            Self::InRange(eye, range) => {
+                boxes.share_meeting(|target| engine::in_range(*eye, *range, target))
+            }
         }
     }
 }

@@ -4,7 +4,7 @@ use super::column::{Analyzed, Column};
 use super::query::Query;
 use super::relation::{relation_of, usual_share};
 use crate::types::Raw;
-use engine::Relation;
+use engine::BoxRelation;
 use pgrx::{pg_extern, pg_sys};
 
 /// Estimates `column OPERATOR value`, either way round.
@@ -59,7 +59,7 @@ unsafe fn share(
     let relation = if column_first {
         relation
     } else {
-        relation.commuted()
+        relation.commuted()?
     };
     let Analyzed { boxes, present } = column.analyzed(operator)?;
     // SAFETY: as above; a node whose tag is that of a constant is one.
@@ -78,7 +78,7 @@ unsafe fn share(
 /// Estimates `column OPERATOR column`, for two tables.
 pub fn share_of_pairs(
     operator: pg_sys::Oid,
-    relation: Relation,
+    relation: BoxRelation,
     columns: &mut [Column; 2],
 ) -> Option<f64> {
     let [left, right] = columns;

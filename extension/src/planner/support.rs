@@ -2,8 +2,8 @@
 
 use super::feature_rows::visible_rows;
 use super::restriction::constant;
-use crate::types::Raw;
-use pgrx::{Internal, pg_extern, pg_sys};
+use crate::types::{Raw, StoredSet};
+use pgrx::{FromDatum, Internal, pg_extern, pg_sys};
 
 /// Rows of `visible_features` and its kin, from the statistics of the scene.
 #[pg_extern(immutable, strict, parallel_safe)]
@@ -19,6 +19,18 @@ fn feature_models_support(request: Raw<pg_sys::Node>) -> Internal {
     unsafe {
         answered(&request, |arguments| {
             arguments.get(1).and_then(|features| array_length(features))
+        })
+    }
+}
+
+/// Rows of `unnest` of a set.
+#[pg_extern(immutable, strict, parallel_safe)]
+fn feature_set_unnest_support(request: Raw<pg_sys::Node>) -> Internal {
+    // SAFETY: the planner passes a request, and the argument was declared a set.
+    unsafe {
+        answered(&request, |arguments| {
+            let set = StoredSet::from_datum(arguments.get(0)?.constvalue, false)?;
+            Some(set.get().cardinality() as f64)
         })
     }
 }

@@ -57,30 +57,30 @@ ALTER OPERATOR occlusion./&> (occlusion.box3d, occlusion.box3d)
 ALTER OPERATOR occlusion./>> (occlusion.box3d, occlusion.box3d)
     SET (RESTRICT = occlusion.box3d_selectivity, JOIN = occlusion.box3d_join_selectivity);
 
--- Times of a call, as multiples of a comparison of two numbers: a box 15 to 50 ns, a sector 20 to
--- 110 ns, a cone 50 to 270 ns, a comparison 6 ns.
-ALTER FUNCTION occlusion.equals(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.overlaps(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.contains(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.contained_by(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.contains(occlusion.box3d, occlusion.point3d) COST 5;
-ALTER FUNCTION occlusion.contained_by(occlusion.point3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.distance(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.distance(occlusion.box3d, occlusion.point3d) COST 5;
-ALTER FUNCTION occlusion.distance(occlusion.point3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.left_of(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.not_right_of(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.not_left_of(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.right_of(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.below(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.not_above(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.not_below(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.above(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.in_front_of(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.not_behind(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.not_in_front_of(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.behind(occlusion.box3d, occlusion.box3d) COST 5;
-ALTER FUNCTION occlusion.meets(occlusion.box3d, occlusion.view_cone) COST 25;
-ALTER FUNCTION occlusion.meets(occlusion.view_cone, occlusion.box3d) COST 25;
-ALTER FUNCTION occlusion.meets(occlusion.box3d, occlusion.view_sector) COST 10;
-ALTER FUNCTION occlusion.meets(occlusion.view_sector, occlusion.box3d) COST 10;
+-- Times of a call, as multiples of a comparison of two numbers, 9 ns: a box 20 ns, a field of view 25
+-- to 50 ns.
+ALTER FUNCTION occlusion.equals(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.overlaps(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.contains(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.contained_by(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.contains(occlusion.box3d, occlusion.point3d) COST 2;
+ALTER FUNCTION occlusion.contained_by(occlusion.point3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.distance(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.distance(occlusion.box3d, occlusion.point3d) COST 2;
+ALTER FUNCTION occlusion.distance(occlusion.point3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.left_of(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.not_right_of(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.not_left_of(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.right_of(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.below(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.not_above(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.not_below(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.above(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.in_front_of(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.not_behind(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.not_in_front_of(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.behind(occlusion.box3d, occlusion.box3d) COST 2;
+ALTER FUNCTION occlusion.meets(occlusion.box3d, occlusion.view_cone) COST 5;
+ALTER FUNCTION occlusion.meets(occlusion.view_cone, occlusion.box3d) COST 5;
+ALTER FUNCTION occlusion.meets(occlusion.box3d, occlusion.view_sector) COST 5;
+ALTER FUNCTION occlusion.meets(occlusion.view_sector, occlusion.box3d) COST 5;

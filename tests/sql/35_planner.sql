@@ -187,8 +187,6 @@ SELECT pg_temp.spoil('{9,1,2,3}') AS spoilt;
 SELECT pg_temp.expected($$SELECT FROM uniform WHERE box && 'BOX3D(0 0 0, 5000 5000 99)'::box3d$$) AS default_of_overlaps;
 SELECT pg_temp.spoil('{1,1,0,NaN,0,1,0,1,0,1,0,1,0,1}') AS spoilt;
 SELECT pg_temp.expected($$SELECT FROM uniform WHERE box && 'BOX3D(0 0 0, 5000 5000 99)'::box3d$$) AS default_of_overlaps;
-SELECT pg_temp.spoil('{}') AS spoilt;
-SELECT pg_temp.expected($$SELECT FROM uniform WHERE box && 'BOX3D(0 0 0, 5000 5000 99)'::box3d$$) AS default_of_overlaps;
 ROLLBACK;
 
 -- Statistics of an expression, of partitions and of a table with children.

@@ -1,2 +1,4 @@
--- include sql/35_planner.sql
--- include sql/85_planner_queries.sql
+-- What the planner asks.
+
+-- include sql/37_planner.sql
+-- include sql/87_planner_queries.sql

@@ -30,6 +30,7 @@ impl Query {
             }
             "occlusion.view_cone" => in_view(FieldOfView::Cone(read(value))),
             "occlusion.view_sector" => in_view(FieldOfView::Sector(read(value))),
+            "occlusion.frustum" => in_view(FieldOfView::Frustum(read(value))),
             _ => return None,
         })
     }

@@ -32,6 +32,10 @@ ALTER OPERATOR occlusion.&& (occlusion.box3d, occlusion.view_sector)
     SET (RESTRICT = occlusion.box3d_selectivity, JOIN = occlusion.box3d_join_selectivity);
 ALTER OPERATOR occlusion.&& (occlusion.view_sector, occlusion.box3d)
     SET (RESTRICT = occlusion.box3d_selectivity, JOIN = occlusion.box3d_join_selectivity);
+ALTER OPERATOR occlusion.&& (occlusion.box3d, occlusion.frustum)
+    SET (RESTRICT = occlusion.box3d_selectivity, JOIN = occlusion.box3d_join_selectivity);
+ALTER OPERATOR occlusion.&& (occlusion.frustum, occlusion.box3d)
+    SET (RESTRICT = occlusion.box3d_selectivity, JOIN = occlusion.box3d_join_selectivity);
 ALTER OPERATOR occlusion.<< (occlusion.box3d, occlusion.box3d)
     SET (RESTRICT = occlusion.box3d_selectivity, JOIN = occlusion.box3d_join_selectivity);
 ALTER OPERATOR occlusion.&< (occlusion.box3d, occlusion.box3d)
@@ -84,3 +88,5 @@ ALTER FUNCTION occlusion.meets(occlusion.box3d, occlusion.view_cone) COST 5;
 ALTER FUNCTION occlusion.meets(occlusion.view_cone, occlusion.box3d) COST 5;
 ALTER FUNCTION occlusion.meets(occlusion.box3d, occlusion.view_sector) COST 5;
 ALTER FUNCTION occlusion.meets(occlusion.view_sector, occlusion.box3d) COST 5;
+ALTER FUNCTION occlusion.meets(occlusion.box3d, occlusion.frustum) COST 5;
+ALTER FUNCTION occlusion.meets(occlusion.frustum, occlusion.box3d) COST 5;

@@ -8,11 +8,15 @@ ALTER FUNCTION occlusion.visible_features(text, occlusion.view_cone)
     SUPPORT occlusion.visible_features_support;
 ALTER FUNCTION occlusion.visible_features(text, occlusion.view_sector)
     SUPPORT occlusion.visible_features_support;
+ALTER FUNCTION occlusion.visible_features(text, occlusion.frustum)
+    SUPPORT occlusion.visible_features_support;
 ALTER FUNCTION occlusion.visible_features(text, occlusion.point3d, float8)
     SUPPORT occlusion.visible_features_support;
 ALTER FUNCTION occlusion.visible_models(text, occlusion.view_cone, text, float8, float8)
     SUPPORT occlusion.visible_features_support;
 ALTER FUNCTION occlusion.visible_models(text, occlusion.view_sector, text, float8, float8)
+    SUPPORT occlusion.visible_features_support;
+ALTER FUNCTION occlusion.visible_models(text, occlusion.frustum, text, float8, float8)
     SUPPORT occlusion.visible_features_support;
 ALTER FUNCTION occlusion.visible_models(text, occlusion.point3d, float8, text, float8, float8)
     SUPPORT occlusion.visible_features_support;

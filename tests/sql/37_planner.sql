@@ -124,6 +124,12 @@ SELECT operator,
 FROM unnest(string_to_array('<< &< &> >> <<| &<| |&> |>> <</ &</ /&> />>', ' ')) AS operator;
 SELECT pg_temp.expected($$SELECT FROM uniform WHERE 'BOX3D(9000 0 0, 9000 0 0)'::box3d << box$$) BETWEEN 9000 AND 11000 AS t;
 
+-- The frustum, like the other fields of view.
+SELECT f.expected / f.counted BETWEEN 0.5 AND 2 AS t
+FROM (SELECT frustum(point3d(5000, 5000, 1.75), 60, 0, 0, 60, 1.5, 1, 2000) AS v) AS v,
+     LATERAL (SELECT pg_temp.expected(format('SELECT FROM uniform WHERE box && %L::frustum', v)),
+                     (SELECT count(*) FROM uniform WHERE box && v)) AS f (expected, counted);
+
 -- NULL keeps no row; nor does a stable expression whose value is not known fail.
 SELECT pg_temp.expected('SELECT FROM uniform WHERE box && NULL::box3d') AS no_row,
        pg_temp.expected($$SELECT FROM uniform WHERE box && (SELECT 'BOX3D(0 0 0, 1 1 1)'::box3d)$$) AS default_of_overlaps,
@@ -283,6 +289,14 @@ FROM (VALUES ($$box && 'BOX3D(1000 1000 0, 1100 1100 60)'::box3d$$), ($$box <@ '
              ($$box && 'BOX3D(-1 -1 -1, 10001 10001 100)'::box3d$$), ($$box <@ 'BOX3D(-1 -1 -1, 10100 10100 100)'::box3d$$),
              ($$box && view_sector(point3d(5000, 5000, 1.75), 90, 350, 50000)$$)) AS c (condition);
 SELECT pg_temp.scan($$SELECT * FROM uniform ORDER BY box <-> point3d(5, 500, 1.75) LIMIT 5$$) ~ 'Index' AS nearest;
+
+-- What runs inside visible_features finds features by index.
+SELECT bool_or(e.line LIKE '%feature_envelope%') AS t
+FROM (SELECT point3d(avg(x(lower(envelope))), avg(y(lower(envelope))), 1.7) AS eye FROM planned.feature) AS f,
+     LATERAL explain_visible_features('planned', view_cone(eye, 90, 60, 100)) AS e (line);
+SELECT bool_or(e.line LIKE '%feature_envelope%') AS t
+FROM (SELECT point3d(avg(x(lower(envelope))), avg(y(lower(envelope))), 1.7) AS eye FROM planned.feature) AS f,
+     LATERAL explain_visible_features('planned', eye, 100) AS e (line);
 
 DROP FUNCTION planner_expected(text);
 DROP VIEW accuracy;

@@ -123,7 +123,7 @@ impl Table {
         // SAFETY: asks the catalog about the table, which was found there.
         unsafe {
             let user = pg_sys::GetUserId();
-            let right = pg_sys::ACL_SELECT.into();
+            let right = pg_sys::ACL_SELECT as pg_sys::AclMode;
             let granted = pg_sys::pg_class_aclcheck(self.oid, user, right)
                 == pg_sys::AclResult::ACLCHECK_OK
                 || pg_sys::pg_attribute_aclcheck(self.oid, column, user, right)
@@ -139,7 +139,7 @@ impl Table {
 fn may_use(schema: pg_sys::Oid) -> bool {
     // SAFETY: asks the catalog about a schema that was found there.
     unsafe {
-        let (user, right) = (pg_sys::GetUserId(), pg_sys::ACL_USAGE.into());
+        let (user, right) = (pg_sys::GetUserId(), pg_sys::ACL_USAGE as pg_sys::AclMode);
         #[cfg(any(feature = "pg14", feature = "pg15"))]
         let answer = pg_sys::pg_namespace_aclcheck(schema, user, right);
         #[cfg(not(any(feature = "pg14", feature = "pg15")))]

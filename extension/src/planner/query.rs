@@ -12,7 +12,7 @@ pub enum Query {
     /// A box, or a point as a box.
     Bounds(engine::Box3d),
     /// A field of view.
-    InView(Prepared),
+    InView(Box<Prepared>),
     /// All that is within a range of an eye, metres.
     InRange(DVec3, f64),
 }
@@ -21,7 +21,7 @@ impl Query {
     /// The query in a constant that is not null; `None` if it is of no type that is estimated.
     pub fn of(constant: &pg_sys::Const) -> Option<Self> {
         let value = constant.constvalue;
-        let in_view = |view: FieldOfView| Self::InView(view.prepared());
+        let in_view = |view: FieldOfView| Self::InView(Box::new(view.prepared()));
         Some(match type_name(constant.consttype).as_str() {
             "occlusion.box3d" => Self::Bounds(read::<Box3d>(value).0),
             "occlusion.point3d" => {

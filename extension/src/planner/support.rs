@@ -9,7 +9,7 @@ use pgrx::{FromDatum, Internal, pg_extern, pg_sys};
 #[pg_extern(immutable, strict, parallel_safe)]
 fn visible_features_support(request: Raw<pg_sys::Node>) -> Internal {
     // SAFETY: the planner passes a request.
-    unsafe { answered(&request, |arguments| visible_rows(arguments)) }
+    unsafe { answered(&request, visible_rows) }
 }
 
 /// Rows of functions that return one for each feature of their second argument, an array.
@@ -18,7 +18,7 @@ fn feature_models_support(request: Raw<pg_sys::Node>) -> Internal {
     // SAFETY: the planner passes a request.
     unsafe {
         answered(&request, |arguments| {
-            arguments.get(1).and_then(|features| array_length(features))
+            arguments.get(1).and_then(array_length)
         })
     }
 }

@@ -51,6 +51,19 @@ impl BoxRelation {
         }
     }
 
+    /// How `b` lies to `a` when `a` lies so to `b`, if one of these tells it.
+    #[must_use]
+    pub fn commuted(self) -> Option<Self> {
+        match self {
+            Self::Overlaps | Self::Equals => Some(self),
+            Self::Contains => Some(Self::ContainedBy),
+            Self::ContainedBy => Some(Self::Contains),
+            Self::Before(axis) => Some(Self::After(axis)),
+            Self::After(axis) => Some(Self::Before(axis)),
+            Self::NotAfter(_) | Self::NotBefore(_) => None,
+        }
+    }
+
     /// Whether some box in the range lies so to `b`.
     #[must_use]
     #[inline]

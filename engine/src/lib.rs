@@ -19,6 +19,7 @@ mod predicates;
 mod shadow_region;
 mod solid;
 mod solid_column;
+mod statistics;
 mod umbra;
 mod view_region;
 mod volumes;
@@ -42,6 +43,7 @@ pub use outer_prism::OuterPrism;
 pub use shadow_region::ShadowRegion;
 pub use solid::{Hides, Repair, Solid};
 pub use solid_column::SolidColumn;
+pub use statistics::BoxStatistics;
 pub use umbra::{OCCLUDER_MARGIN, Occluder, ShadowCaster};
 pub use view_region::{
     LocalGround, Site, Street, ViewRegionOptions, covers_ground, footprint, is_building,

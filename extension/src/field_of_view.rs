@@ -31,7 +31,8 @@ pub enum Prepared {
 }
 
 impl FieldOfView {
-    fn prepared(&self) -> Prepared {
+    /// The same, prepared.
+    pub fn prepared(&self) -> Prepared {
         match self {
             Self::Cone(cone) => Prepared::Cone(cone.in_radians()),
             Self::Sector(sector) => Prepared::Sector(sector.in_radians()),

@@ -8,6 +8,7 @@ mod field_of_view;
 mod import;
 mod index;
 mod models;
+mod planner;
 mod scene;
 mod settings;
 mod types;

@@ -98,6 +98,9 @@ const BOX3D: Contender = Contender {
     nearest: Some("ORDER BY b.key OPERATOR(occlusion.<->) q.point LIMIT 10"),
 };
 
+/// What operator classes can be made by.
+pub const SUPERUSER: &str = "superuser";
+
 /// Finds a little more than ours: what keys in single precision may find besides, in cities that
 /// reach less than 100 km from their origin.
 pub const GENEROUS: Contender = Contender {
@@ -224,6 +227,12 @@ impl Contender {
         all.extend(unsorted.then_some(UNSORTED));
         all.extend([BOX3D_SPGIST, BOX3D_BRIN, POSTGIS_ND, POSTGIS_2D, CUBE_GIST]);
         all
+    }
+
+    /// What it needs that a database may not give: an extension, a superuser.
+    pub fn needs(&self) -> impl Iterator<Item = &'static str> {
+        let superuser = self.preparation.map(|_| SUPERUSER);
+        self.extension.into_iter().chain(superuser)
     }
 
     /// Whether it is somebody else's.

@@ -37,7 +37,7 @@ impl DataSet {
                 .map(|feature| feature.envelope.into())
                 .collect(),
             depth: None,
-            reach: 200.0,
+            reach: 240.0,
             range: 500.0,
             streets: None,
         }

@@ -19,7 +19,7 @@ use crate::database::Database;
 use crate::failure::{EXIT_STATUS, Failure};
 use crate::terminal::{self, BAD};
 use arena::Arena;
-use contender::{Contender, Kind};
+use contender::{Contender, Kind, SUPERUSER};
 use data_set::DataSet;
 use outcome::{Entry, Outcome};
 use report::Format;
@@ -82,7 +82,7 @@ impl Index {
     /// Runs the command; whether all answers agree.
     pub fn run(&self) -> Result<bool, Failure> {
         let mut client = self.database.connect()?;
-        let absent = missing_extensions(&mut client)?;
+        let absent = absences(&mut client)?;
         let mut outcomes = Vec::new();
         let mut differences = Vec::new();
         for plan in self.plans() {
@@ -124,11 +124,10 @@ impl Index {
         making.finish_and_clear();
         let unsorted = matches!(plan, Plan::Volumes(_, depth) if depth > DEPTHS[0]);
         let reason = |contender: &Contender| {
-            let extension = contender.extension?;
-            absent
-                .iter()
-                .find(|(name, _)| *name == extension)
-                .map(|(_, reason)| reason.clone())
+            contender.needs().find_map(|need| {
+                let (_, reason) = absent.iter().find(|(name, _)| *name == need)?;
+                Some(reason.clone())
+            })
         };
         let (out, contenders): (Vec<Contender>, Vec<Contender>) = Contender::all(unsorted)
             .into_iter()
@@ -192,23 +191,32 @@ impl Index {
     }
 }
 
-/// Creates the extensions of rivals; those that cannot be had, and why.
-fn missing_extensions(client: &mut Client) -> Result<Vec<(&'static str, String)>, Failure> {
-    let mut missing = Vec::new();
+/// What contenders need and cannot have, and why. Creates the extensions of rivals.
+fn absences(client: &mut Client) -> Result<Vec<(&'static str, String)>, Failure> {
+    let mut absent = Vec::new();
     for name in ["postgis", "cube"] {
-        let available = "SELECT FROM pg_catalog.pg_available_extensions WHERE name = $1";
-        if client.query_opt(available, &[&name])?.is_none() {
-            missing.push((name, format!("the server has no extension {name}")));
-            continue;
-        }
-        if let Err(error) = client.batch_execute(&format!("CREATE EXTENSION IF NOT EXISTS {name}"))
-        {
-            let reason = Failure::from(error).to_string();
-            missing.push((
-                name,
-                format!("extension {name} cannot be created: {reason}"),
-            ));
+        if let Some(reason) = absence(client, name)? {
+            absent.push((name, reason));
         }
     }
-    Ok(missing)
+    let statement = "SELECT rolsuper FROM pg_catalog.pg_roles WHERE rolname = current_user";
+    if !client.query_one(statement, &[])?.get::<_, bool>(0) {
+        let reason = "only a superuser makes operator classes";
+        absent.push((SUPERUSER, reason.to_owned()));
+    }
+    Ok(absent)
+}
+
+/// Creates an extension where it is missing; why that cannot be.
+fn absence(client: &mut Client, extension: &str) -> Result<Option<String>, Failure> {
+    let available = "SELECT FROM pg_catalog.pg_available_extensions WHERE name = $1";
+    if client.query_opt(available, &[&extension])?.is_none() {
+        return Ok(Some(format!("the server has no extension {extension}")));
+    }
+    let create = format!("CREATE EXTENSION IF NOT EXISTS {extension}");
+    let refused = client.batch_execute(&create).err();
+    Ok(refused.map(|error| {
+        let refusal = Failure::from(error);
+        format!("extension {extension} cannot be created: {refusal}")
+    }))
 }

@@ -20,7 +20,8 @@ impl TestDatabase {
     /// When the server refuses.
     #[must_use]
     pub fn new(test: &str) -> Self {
-        let name = format!("e2e_{test}_{}", std::process::id());
+        // A name that needs no quotes, in SQL and in a URL.
+        let name = format!("e2e_{test}_{}", std::process::id()).to_lowercase();
         let name = name.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
         let drop = format!("DROP DATABASE IF EXISTS {name} WITH (FORCE)");
         let create = format!("CREATE DATABASE {name}");

@@ -48,7 +48,7 @@ pub fn difference(
     };
     Ok((missing + surplus > 0).then(|| {
         format!(
-            "{}, {}: {missing} rows are missing and {surplus} are too many in {COMPARED} searches",
+            "{}, {}: {missing} rows are missing and {surplus} are too many in the first {COMPARED} searches",
             contender.name,
             kind.name()
         )

@@ -16,7 +16,7 @@ const FEWEST_BUILDINGS: usize = 100;
 const TRIES: usize = 64;
 
 /// Volumes and eyes of the sample from which the size of volumes is found.
-const SAMPLE: (usize, usize) = (50_000, 400);
+const SAMPLE: (usize, usize) = (20_000, 2_000);
 
 /// Halvings of the interval in which that size is, from a millimetre to 10 km: to a part in 10^6.
 const HALVINGS: usize = 40;

@@ -56,7 +56,7 @@ impl DataSet {
             boxes: volumes::volumes(&streets, rows, depth, seed),
             depth: Some(depth),
             reach: 2.0,
-            range: 50.0,
+            range: 20.0,
             streets: Some(streets),
         }
     }

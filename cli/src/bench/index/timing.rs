@@ -8,10 +8,10 @@ use super::contender::{Contender, Kind};
 use crate::failure::Failure;
 
 /// After so long a round of single searches ends early.
-const ROUND: Duration = Duration::from_secs(10);
+const ROUND: Duration = Duration::from_secs(5);
 
-/// Batches that would take longer, seconds, are left out.
-const LONGEST_BATCH: f64 = 30.0;
+/// Milliseconds for all batches of a contender; those that would take longer are left out.
+const PATIENCE: f64 = 20e3;
 
 /// How often all searches are made in one statement; the median counts.
 const BATCHES: usize = 5;
@@ -145,8 +145,9 @@ impl Runner {
     }
 
     fn search_all(&mut self, client: &mut Client, effort: Effort) -> Result<(), Failure> {
-        let expected = self.times.iter().sum::<f64>() / self.times.len() as f64;
-        if expected * effort.searches as f64 > LONGEST_BATCH * 1e3 {
+        let mean = self.times.iter().sum::<f64>() / self.times.len() as f64;
+        let spent: f64 = self.batches.iter().sum();
+        if spent + mean * effort.searches as f64 > PATIENCE {
             return Ok(());
         }
         let began = Instant::now();

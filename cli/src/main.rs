@@ -4,6 +4,7 @@
 //! database computes and answers, `oracle` and `renderer` check.
 #![forbid(unsafe_code)]
 
+mod bench;
 mod database;
 mod export;
 mod failure;
@@ -30,7 +31,8 @@ const EXAMPLES: &str = "Examples:
   occlusion query delft --observer 85200,446800,1.7 --heading 45 --angle 90
   occlusion verify delft --observers 100
   occlusion render delft --observer 85200,446800,1.7 -o picture.png
-  occlusion export delft --observer 85200,446800,1.7 -o visible.glb";
+  occlusion export delft --observer 85200,446800,1.7 -o visible.glb
+  occlusion bench index --rows 100000";
 
 /// Which features of a 3D city are visible from here, by index, with no false occlusion
 #[derive(Parser, Debug)]
@@ -48,6 +50,7 @@ enum Command {
     Verify(verify::Verify),
     Render(render::Render),
     Export(export::Export),
+    Bench(bench::Bench),
 }
 
 fn main() -> ExitCode {
@@ -69,7 +72,8 @@ fn run(command: Command) -> Result<ExitCode, Failure> {
         Command::Render(render) => render.run()?,
         Command::Export(export) => export.run()?,
         Command::Verify(verify) if !verify.run()? => return Ok(FOUND_FAULTS.into()),
-        Command::Verify(_) => {}
+        Command::Bench(bench) if !bench.run()? => return Ok(FOUND_FAULTS.into()),
+        Command::Verify(_) | Command::Bench(_) => {}
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -32,6 +32,11 @@ impl Box3d {
         });
         (x * x + y * y + z * z).sqrt()
     }
+
+    /// Whether a point is in the closed box.
+    pub fn holds(&self, point: [f64; 3]) -> bool {
+        (0..3).all(|axis| (self.min[axis]..=self.max[axis]).contains(&point[axis]))
+    }
 }
 
 impl From<engine::Box3d> for Box3d {

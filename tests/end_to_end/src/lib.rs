@@ -4,10 +4,12 @@
 #![forbid(unsafe_code)]
 
 mod city;
+mod database;
 mod program;
 mod scene;
 
 pub use city::City;
+pub use database::TestDatabase;
 pub use program::{Run, occlusion, shell, start};
 pub use scene::{TestScene, client, database_url};
 

@@ -11,8 +11,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use end_to_end::{client, database_url};
-use postgres::{Client, Config, NoTls, SimpleQueryMessage};
+use end_to_end::TestDatabase;
+use postgres::{Client, SimpleQueryMessage};
 
 /// One block of SQL.
 struct Block {
@@ -44,7 +44,7 @@ fn every_statement_of_the_documentation_runs() {
         }
         let name = page.file_name().expect("a page has a name");
         let name = name.to_string_lossy();
-        let mut database = Database::new(&name);
+        let mut database = TestDatabase::new(&name);
         for block in &blocks {
             if let Err(fault) = run(&mut database.client, block) {
                 faults.push(format!("{name}, line {}: {fault}", block.line));
@@ -209,39 +209,4 @@ fn returned(answer: &[SimpleQueryMessage]) -> Vec<Vec<String>> {
         }
     }
     table
-}
-
-/// A database of its own for a page, dropped at the end.
-struct Database {
-    name: String,
-    client: Client,
-}
-
-impl Database {
-    fn new(page: &str) -> Self {
-        let name = format!("documentation {page} {}", std::process::id());
-        let mut admin = client();
-        admin
-            .batch_execute(&format!("DROP DATABASE IF EXISTS \"{name}\""))
-            .expect("a database can be dropped");
-        admin
-            .batch_execute(&format!("CREATE DATABASE \"{name}\""))
-            .expect("a database can be made");
-        let mut config: Config = database_url().parse().expect("DATABASE_URL is a URL");
-        let client = config.dbname(&name).connect(NoTls);
-        let client = client.expect("the new database answers");
-        let mut database = Self { name, client };
-        database
-            .client
-            .batch_execute("CREATE EXTENSION pg_occlusion")
-            .expect("the extension can be made");
-        database
-    }
-}
-
-impl Drop for Database {
-    fn drop(&mut self) {
-        // In a drop: a failure must not hide the one of the test.
-        let _ = client().batch_execute(&format!("DROP DATABASE \"{}\" WITH (FORCE)", self.name));
-    }
 }

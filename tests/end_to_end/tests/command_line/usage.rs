@@ -34,6 +34,8 @@ fn wrong_usage_exits_with_2() {
             "--sector",
         ],
         &["verify", "x", "--resolution", "0"],
+        &["bench"],
+        &["bench", "index", "--rows", "0"],
         &["render", "x", "--observer", "1,2,3", "--size", "big"],
     ] {
         occlusion(arguments).expect(2);
@@ -42,10 +44,17 @@ fn wrong_usage_exits_with_2() {
 
 #[test]
 fn help_has_examples_and_exit_statuses() {
-    for command in ["import", "generate", "query", "verify", "render"] {
-        let help = occlusion(&[command, "--help", "--database", "x"])
-            .expect(0)
-            .stdout;
+    for command in [
+        "import",
+        "generate",
+        "query",
+        "verify",
+        "render",
+        "bench index",
+    ] {
+        let mut arguments: Vec<&str> = command.split(' ').collect();
+        arguments.extend(["--help", "--database", "x"]);
+        let help = occlusion(&arguments).expect(0).stdout;
         assert!(help.contains(&format!("occlusion {command} ")), "{help}");
         assert!(
             help.contains("Exit status:") && help.contains("Examples:"),

@@ -1,0 +1,33 @@
+//! `occlusion bench`: measures this extension against others.
+
+mod index;
+
+use clap::{Args, Subcommand};
+
+use crate::failure::{EXIT_STATUS, Failure};
+
+const EXAMPLES: &str = "Examples:
+  occlusion bench index --rows 100000
+  occlusion bench index --format markdown";
+
+/// Measures this extension against others, in one run
+#[derive(Args, Debug)]
+#[command(after_help = format!("{EXAMPLES}\n\n{EXIT_STATUS}"))]
+pub struct Bench {
+    #[command(subcommand)]
+    benchmark: Benchmark,
+}
+
+#[derive(Subcommand, Debug)]
+enum Benchmark {
+    Index(index::Index),
+}
+
+impl Bench {
+    /// Runs the benchmark; whether all answers agree.
+    pub fn run(&self) -> Result<bool, Failure> {
+        match &self.benchmark {
+            Benchmark::Index(index) => index.run(),
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! The benchmarks, on little data: that everything is measured and that answers agree, not how
+//! long it takes.
+
+use end_to_end::{TestDatabase, occlusion};
+
+/// Indexes with the extension that they need, and whether they answer every search.
+const INDEXES: [(&str, Option<&str>, &[&str]); 7] = [
+    ("box3d GiST", None, &ALL),
+    ("box3d GiST, build not sorted", None, &ALL),
+    ("box3d SP-GiST", None, &ALL),
+    (
+        "box3d BRIN",
+        None,
+        &["box", "sector", "cone", "point in box"],
+    ),
+    ("PostGIS n-D GiST", Some("postgis"), &OF_RIVALS),
+    ("PostGIS 2D GiST + z", Some("postgis"), &OF_RIVALS),
+    ("cube GiST", Some("cube"), &OF_RIVALS),
+];
+
+const ALL: [&str; 5] = ["box", "sector", "cone", "point in box", "nearest 10"];
+const OF_RIVALS: [&str; 4] = ["box", "sector", "point in box", "nearest 10"];
+
+const EXTENSION: &str = "SELECT FROM pg_catalog.pg_extension WHERE extname = $1";
+const SCHEMA: &str = "SELECT FROM pg_catalog.pg_namespace WHERE nspname = $1";
+
+/// Rows of all tables in markdown, cell by cell.
+fn cells(markdown: &str) -> Vec<Vec<&str>> {
+    let rows = markdown.lines().filter_map(|line| line.strip_prefix("| "));
+    rows.map(|row| row.trim_end_matches(" |").split(" | ").collect())
+        .collect()
+}
+
+#[test]
+fn every_index_is_measured_on_every_data_set() {
+    let mut database = TestDatabase::new("bench_index");
+    let run = occlusion(&[
+        "bench",
+        "index",
+        "--rows",
+        "2100",
+        "--searches",
+        "20",
+        "--rounds",
+        "1",
+        "--format",
+        "markdown",
+        "--database",
+        &database.url,
+    ])
+    .expect(0);
+    let text = &run.stdout;
+    let rows = cells(text);
+    assert_eq!(text.matches("\n### ").count() + 1, 4, "{text}");
+    for (index, extension, searches) in INDEXES {
+        let data_sets = if index.contains("not sorted") { 1 } else { 3 };
+        let count = |row: &dyn Fn(&&Vec<&str>) -> bool| rows.iter().filter(row).count();
+        let is_there = extension.is_none_or(|name| database.finds(EXTENSION, name));
+        if !is_there {
+            let absent = format!("{index} is absent: the server has no extension");
+            assert_eq!(text.matches(&absent).count(), data_sets, "{text}");
+        }
+        let expected = if is_there { data_sets } else { 0 };
+        assert_eq!(count(&|row| row[0] == index), expected, "{index}: {text}");
+        for search in searches {
+            let found = count(&|row| row[0] == *search && row[1] == index);
+            assert_eq!(found, expected, "{search}, {index}: {text}");
+        }
+    }
+    let goals = rows
+        .iter()
+        .filter(|row| row.len() == 4 && ["yes", "no", "not measured"].contains(&row[3]));
+    assert_eq!(goals.count(), 7, "{text}");
+    let numbers = rows
+        .iter()
+        .filter(|row| row.len() == 10 && ALL.contains(&row[0]));
+    for row in numbers {
+        for cell in [2, 3, 4, 8, 9] {
+            let number: f64 = row[cell].parse().unwrap_or_else(|_| panic!("{row:?}"));
+            assert!(number.is_finite() && number >= 0.0, "{row:?}");
+        }
+        assert_ne!(row[2], "0", "searches are where there are boxes: {row:?}");
+    }
+    assert!(!database.finds(SCHEMA, "occlusion_bench_index"));
+}

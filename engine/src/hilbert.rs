@@ -2,19 +2,37 @@
 
 use glam::DVec3;
 
-/// Bits of each coordinate.
+/// Bits of each coordinate of a position.
 const BITS: u32 = 42;
 /// Cells of the curve in a metre: a sixteenth of a millimetre each, so that the curve reaches
-/// 137,000 km either way; points beyond are on its border.
+/// 134,000 km either way; points beyond are on its border.
 const CELLS_PER_METRE: f64 = 16_384.0;
 
-/// The position of a point on Hilbert's curve through space, 126 bits; the first bits of it are the
-/// position on a coarser curve. By J. Skilling, "Programming the Hilbert curve", AIP Conference
-/// Proceedings 707, 2004.
+/// Bits of each coordinate of a short position.
+const SHORT_BITS: u32 = 21;
+/// Cells of the short curve in a metre: it reaches 131 km either way.
+const SHORT_CELLS_PER_METRE: f64 = 8.0;
+
+/// The position of a point on Hilbert's curve through space, 126 bits.
 #[must_use]
 pub fn hilbert_key(point: DVec3) -> u128 {
-    let mut x = point.to_array().map(cell);
-    let top = 1_u64 << (BITS - 1);
+    let [high, low] = curve::<BITS>(point.to_array().map(|x| cell::<BITS>(x * CELLS_PER_METRE)));
+    u128::from(high) << 63 | u128::from(low)
+}
+
+/// The position on a coarser curve around the origin, 63 bits, for points near it.
+#[must_use]
+pub fn short_hilbert_key(point: DVec3) -> u64 {
+    let cells = point
+        .to_array()
+        .map(|x| cell::<SHORT_BITS>(x * SHORT_CELLS_PER_METRE));
+    curve::<SHORT_BITS>(cells)[1]
+}
+
+/// The position of a cell, of which each coordinate has `B` bits, 42 at the most; its upper and lower
+/// 63 bits. By J. Skilling, "Programming the Hilbert curve", AIP Conference Proceedings 707, 2004.
+fn curve<const B: u32>(mut x: [u64; 3]) -> [u64; 2] {
+    let top = 1_u64 << (B - 1);
     // Undo the turns of the coarser levels on the finer ones.
     let mut bit = top;
     while bit > 1 {
@@ -44,22 +62,21 @@ pub fn hilbert_key(point: DVec3) -> u128 {
     interleaved(x.map(|coordinate| coordinate ^ flips))
 }
 
-/// The cell of a coordinate; 0 at the lower end of the curve's reach.
-fn cell(coordinate: f64) -> u64 {
-    let half = 1_i64 << (BITS - 1);
+/// The cell of a coordinate that is counted in cells; 0 at the lower end of the curve's reach.
+fn cell<const B: u32>(coordinate: f64) -> u64 {
+    let half = 1_i64 << (B - 1);
     // The conversion of floats to integers saturates.
-    let cell = (coordinate * CELLS_PER_METRE).floor() as i64;
+    let cell = coordinate.floor() as i64;
     (cell.clamp(-half, half - 1) + half).cast_unsigned()
 }
 
-/// The bits of three numbers in turn, those of the first one leading.
-fn interleaved(numbers: [u64; 3]) -> u128 {
+/// The bits of three numbers in turn, those of the first one leading: of their upper and lower 21.
+fn interleaved(numbers: [u64; 3]) -> [u64; 2] {
     let low = (1 << 21) - 1;
-    let part = |shift: u32| {
+    [21, 0].map(|shift: u32| {
         let [a, b, c] = numbers.map(|number| spread(number >> shift & low));
         a << 2 | b << 1 | c
-    };
-    u128::from(part(21)) << 63 | u128::from(part(0))
+    })
 }
 
 /// The 21 bits of a number, two zeros between them.
@@ -77,30 +94,34 @@ mod tests {
     use super::*;
     use std::collections::BTreeMap;
 
-    /// A cube of cells at a corner of the curve, by position.
-    fn cells(side: i32, at: DVec3) -> BTreeMap<u128, DVec3> {
+    /// A cube of cells at a corner of a curve, by position.
+    fn cells(
+        key: impl Fn(DVec3) -> u128,
+        per_metre: f64,
+        side: i32,
+        at: DVec3,
+    ) -> BTreeMap<u128, DVec3> {
         let mut cells = BTreeMap::new();
         for x in 0..side {
             for y in 0..side {
                 for z in 0..side {
                     let steps = DVec3::new(x.into(), y.into(), z.into());
-                    let point = at + (steps + 0.5) / CELLS_PER_METRE;
-                    cells.insert(hilbert_key(point), steps);
+                    let point = at + (steps + 0.5) / per_metre;
+                    cells.insert(key(point), steps);
                 }
             }
         }
         cells
     }
 
-    #[test]
-    fn consecutive_positions_are_neighbours_in_space() {
-        let reach = (1_u64 << (BITS - 1)) as f64 / CELLS_PER_METRE;
+    fn check(key: impl Fn(DVec3) -> u128, per_metre: f64, bits: u32) {
+        let reach = (1_u64 << (bits - 1)) as f64 / per_metre;
         for corner in [
             DVec3::splat(-reach),
             DVec3::ZERO,
             DVec3::new(0.0, 0.0, -reach),
         ] {
-            let cells = cells(16, corner);
+            let cells = cells(&key, per_metre, 16, corner);
             assert_eq!(cells.len(), 4096, "every cell has a position of its own");
             let (first, last) = (cells.keys().next(), cells.keys().last());
             // An aligned cube of cells is one piece of the curve.
@@ -113,6 +134,13 @@ mod tests {
                 assert_eq!((*pair[0] - *pair[1]).abs().element_sum(), 1.0);
             }
         }
+    }
+
+    #[test]
+    fn consecutive_positions_are_neighbours_in_space() {
+        check(hilbert_key, CELLS_PER_METRE, BITS);
+        let short = |point| u128::from(short_hilbert_key(point));
+        check(short, SHORT_CELLS_PER_METRE, SHORT_BITS);
     }
 
     #[test]

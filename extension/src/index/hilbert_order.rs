@@ -3,16 +3,24 @@
 
 use super::query::read;
 use crate::types::Raw;
+use glam::DVec3;
 use pgrx::{pg_extern, pg_sys};
 use std::cmp::Ordering;
 use std::ffi::c_int;
 
-/// Tells a sort how to compare boxes: by the first 64 bits of the position on the curve, which are
-/// computed once for each box, and only among equal ones by all of it.
+/// Tells a sort how to compare boxes: by a position on a curve around the first of them, which is
+/// computed once for each box, and only among equal ones by more.
 #[pg_extern(immutable, strict, parallel_safe)]
 fn box3d_gist_sortsupport(sort: Raw<pg_sys::SortSupportData>) {
-    // SAFETY: a sort passes its own state to fill.
-    let sort = unsafe { &mut *sort.as_ptr() };
+    // SAFETY: a sort passes its own state to fill; `ssup_extra` is ours to use, and lives in its
+    // memory context.
+    let sort = unsafe {
+        let sort = &mut *sort.as_ptr();
+        let origin = pg_sys::MemoryContextAlloc(sort.ssup_cxt, size_of::<Option<DVec3>>());
+        origin.cast::<Option<DVec3>>().write(None);
+        sort.ssup_extra = origin;
+        sort
+    };
     if sort.abbreviate {
         sort.comparator = Some(compare_abbreviated);
         sort.abbrev_converter = Some(abbreviate);
@@ -25,12 +33,11 @@ fn box3d_gist_sortsupport(sort: Raw<pg_sys::SortSupportData>) {
 
 unsafe extern "C-unwind" fn abbreviate(
     key: pg_sys::Datum,
-    _: pg_sys::SortSupport,
+    sort: pg_sys::SortSupport,
 ) -> pg_sys::Datum {
-    // SAFETY: a sort of boxes passes boxes.
-    let key = position(&unsafe { read::<engine::Box3d>(key) });
-    let leading = (key >> 62) as u64;
-    pg_sys::Datum::from(leading as usize)
+    // SAFETY: a sort of boxes passes boxes, and the state that was filled above.
+    let position = unsafe { position(&center(key), sort) };
+    pg_sys::Datum::from(position as usize)
 }
 
 unsafe extern "C-unwind" fn compare_abbreviated(
@@ -45,21 +52,47 @@ unsafe extern "C-unwind" fn never_abort(_: c_int, _: pg_sys::SortSupport) -> boo
     false
 }
 
+/// Boxes around one centre, which are common, are ordered by size: those of one size stay together.
 unsafe extern "C-unwind" fn compare(
     a: pg_sys::Datum,
     b: pg_sys::Datum,
-    _: pg_sys::SortSupport,
+    sort: pg_sys::SortSupport,
 ) -> c_int {
-    // SAFETY: a sort of boxes passes boxes.
-    let (a, b) = unsafe { (read::<engine::Box3d>(a), read::<engine::Box3d>(b)) };
-    // Equal positions are common among boxes around one centre: those of one size stay together.
-    let by_size = || {
-        let (a, b) = (a.size().to_array(), b.size().to_array());
-        a.partial_cmp(&b).unwrap_or(Ordering::Equal)
-    };
-    position(&a).cmp(&position(&b)).then_with(by_size) as c_int
+    // SAFETY: a sort of boxes passes boxes, and the state that was filled above.
+    unsafe {
+        let (p, q) = (center(a), center(b));
+        let coarse = position(&p, sort).cmp(&position(&q, sort));
+        let fine = || {
+            if p == q {
+                Ordering::Equal
+            } else {
+                engine::hilbert_key(p).cmp(&engine::hilbert_key(q))
+            }
+        };
+        let by_size = || {
+            let [a, b] = [a, b].map(|key| read::<engine::Box3d>(key).size().to_array());
+            a.partial_cmp(&b).unwrap_or(Ordering::Equal)
+        };
+        coarse.then_with(fine).then_with(by_size) as c_int
+    }
 }
 
-fn position(key: &engine::Box3d) -> u128 {
-    engine::hilbert_key(key.min * 0.5 + key.max * 0.5)
+/// The middle of a box.
+///
+/// # Safety
+/// The datum must be one.
+unsafe fn center(key: pg_sys::Datum) -> DVec3 {
+    // SAFETY: as the caller says.
+    let key: engine::Box3d = unsafe { read(key) };
+    key.min * 0.5 + key.max * 0.5
+}
+
+/// The position of a point on the curve around the first point of the sort.
+///
+/// # Safety
+/// The sort must be one that `box3d_gist_sortsupport` has filled.
+unsafe fn position(point: &DVec3, sort: pg_sys::SortSupport) -> u64 {
+    // SAFETY: as the caller says.
+    let origin = unsafe { &mut *(*sort).ssup_extra.cast::<Option<DVec3>>() };
+    engine::short_hilbert_key(*point - *origin.get_or_insert(*point))
 }

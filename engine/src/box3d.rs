@@ -83,18 +83,21 @@ impl Box3d {
 
     /// Whether the closed boxes share a point.
     #[must_use]
+    #[inline]
     pub fn overlaps(&self, other: &Self) -> bool {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
     }
 
     /// Whether `other` lies in the closed box.
     #[must_use]
+    #[inline]
     pub fn contains(&self, other: &Self) -> bool {
         self.min.cmple(other.min).all() && other.max.cmple(self.max).all()
     }
 
     /// Whether `point` lies in the closed box.
     #[must_use]
+    #[inline]
     pub fn contains_point(&self, point: DVec3) -> bool {
         self.min.cmple(point).all() && point.cmple(self.max).all()
     }

@@ -102,6 +102,7 @@ impl BoxRange {
 
     /// The smallest box that holds all of them.
     #[must_use]
+    #[inline]
     pub fn bounds(&self) -> Box3d {
         Box3d {
             min: self.least.min,

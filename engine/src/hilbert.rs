@@ -8,36 +8,43 @@ const BITS: u32 = 42;
 /// 134,000 km either way; points beyond are on its border.
 const CELLS_PER_METRE: f64 = 16_384.0;
 
-/// Bits of each coordinate of a short position.
-const SHORT_BITS: u32 = 21;
-/// Cells of the short curve in a metre: it reaches 131 km either way.
-const SHORT_CELLS_PER_METRE: f64 = 8.0;
+/// Bits of x and y in a position in plan, and of the height after it.
+const PLAN_BITS: u32 = 24;
+const HEIGHT_BITS: u32 = 16;
+/// Cells of the curve in plan in a metre: it reaches 1,048 km either way, heights 4 km.
+const PLAN_CELLS_PER_METRE: f64 = 8.0;
 
 /// The position of a point on Hilbert's curve through space, 126 bits.
 #[must_use]
 pub fn hilbert_key(point: DVec3) -> u128 {
-    let [high, low] = curve::<BITS>(point.to_array().map(|x| cell::<BITS>(x * CELLS_PER_METRE)));
-    u128::from(high) << 63 | u128::from(low)
+    let cells = (point * CELLS_PER_METRE).to_array().map(cell::<BITS>);
+    interleaved(transposed::<3, BITS>(cells))
 }
 
-/// The position on a coarser curve around the origin, 63 bits, for points near it.
+/// The position of a point near the origin on Hilbert's curve through the plane, and then its height:
+/// 64 bits. Cities are flat: along a curve through space, what is low and what is high in one street
+/// would come apart.
 #[must_use]
-pub fn short_hilbert_key(point: DVec3) -> u64 {
-    let cells = point
-        .to_array()
-        .map(|x| cell::<SHORT_BITS>(x * SHORT_CELLS_PER_METRE));
-    curve::<SHORT_BITS>(cells)[1]
+pub fn plan_key(point: DVec3) -> u64 {
+    let [x, y, z] = (point * PLAN_CELLS_PER_METRE).to_array();
+    let [x, y] = transposed::<2, PLAN_BITS>([x, y].map(cell::<PLAN_BITS>));
+    let bits = (0..PLAN_BITS).rev();
+    let plan = bits.fold(0, |plan, bit| {
+        plan << 2 | (x >> bit & 1) << 1 | y >> bit & 1
+    });
+    plan << HEIGHT_BITS | cell::<HEIGHT_BITS>(z)
 }
 
-/// The position of a cell, of which each coordinate has `B` bits, 42 at the most; its upper and lower
-/// 63 bits. By J. Skilling, "Programming the Hilbert curve", AIP Conference Proceedings 707, 2004.
-fn curve<const B: u32>(mut x: [u64; 3]) -> [u64; 2] {
+/// The position of a cell on Hilbert's curve through `N` dimensions, of which each coordinate has `B`
+/// bits: the bits of the result in turn, those of the first number leading. By J. Skilling,
+/// "Programming the Hilbert curve", AIP Conference Proceedings 707, 2004.
+fn transposed<const N: usize, const B: u32>(mut x: [u64; N]) -> [u64; N] {
     let top = 1_u64 << (B - 1);
     // Undo the turns of the coarser levels on the finer ones.
     let mut bit = top;
     while bit > 1 {
         let below = bit - 1;
-        for axis in 0..3 {
+        for axis in 0..N {
             if x[axis] & bit != 0 {
                 x[0] ^= below;
             } else {
@@ -49,17 +56,18 @@ fn curve<const B: u32>(mut x: [u64; 3]) -> [u64; 2] {
         bit >>= 1;
     }
     // Gray code.
-    x[1] ^= x[0];
-    x[2] ^= x[1];
+    for axis in 1..N {
+        x[axis] ^= x[axis - 1];
+    }
     let mut flips = 0;
     bit = top;
     while bit > 1 {
-        if x[2] & bit != 0 {
+        if x[N - 1] & bit != 0 {
             flips ^= bit - 1;
         }
         bit >>= 1;
     }
-    interleaved(x.map(|coordinate| coordinate ^ flips))
+    x.map(|coordinate| coordinate ^ flips)
 }
 
 /// The cell of a coordinate that is counted in cells; 0 at the lower end of the curve's reach.
@@ -70,13 +78,14 @@ fn cell<const B: u32>(coordinate: f64) -> u64 {
     (cell.clamp(-half, half - 1) + half).cast_unsigned()
 }
 
-/// The bits of three numbers in turn, those of the first one leading: of their upper and lower 21.
-fn interleaved(numbers: [u64; 3]) -> [u64; 2] {
+/// The bits of three numbers in turn, those of the first one leading.
+fn interleaved(numbers: [u64; 3]) -> u128 {
     let low = (1 << 21) - 1;
-    [21, 0].map(|shift: u32| {
+    let part = |shift: u32| {
         let [a, b, c] = numbers.map(|number| spread(number >> shift & low));
         a << 2 | b << 1 | c
-    })
+    };
+    u128::from(part(21)) << 63 | u128::from(part(0))
 }
 
 /// The 21 bits of a number, two zeros between them.
@@ -94,17 +103,17 @@ mod tests {
     use super::*;
     use std::collections::BTreeMap;
 
-    /// A cube of cells at a corner of a curve, by position.
+    /// A square or a cube of cells at a corner of a curve, by position.
     fn cells(
         key: impl Fn(DVec3) -> u128,
         per_metre: f64,
-        side: i32,
+        sides: [i32; 3],
         at: DVec3,
     ) -> BTreeMap<u128, DVec3> {
         let mut cells = BTreeMap::new();
-        for x in 0..side {
-            for y in 0..side {
-                for z in 0..side {
+        for x in 0..sides[0] {
+            for y in 0..sides[1] {
+                for z in 0..sides[2] {
                     let steps = DVec3::new(x.into(), y.into(), z.into());
                     let point = at + (steps + 0.5) / per_metre;
                     cells.insert(key(point), steps);
@@ -114,21 +123,24 @@ mod tests {
         cells
     }
 
-    fn check(key: impl Fn(DVec3) -> u128, per_metre: f64, bits: u32) {
+    fn check(key: impl Fn(DVec3) -> u128, per_metre: f64, bits: u32, sides: [i32; 3]) {
         let reach = (1_u64 << (bits - 1)) as f64 / per_metre;
         for corner in [
             DVec3::splat(-reach),
             DVec3::ZERO,
-            DVec3::new(0.0, 0.0, -reach),
+            DVec3::new(0.0, -reach, 0.0),
         ] {
-            let cells = cells(&key, per_metre, 16, corner);
-            assert_eq!(cells.len(), 4096, "every cell has a position of its own");
-            let (first, last) = (cells.keys().next(), cells.keys().last());
-            // An aligned cube of cells is one piece of the curve.
+            let cells = cells(&key, per_metre, sides, corner);
+            let count = sides.iter().product::<i32>().cast_unsigned();
             assert_eq!(
-                first.zip(last).map(|(first, last)| last - first),
-                Some(4095)
+                cells.len(),
+                count as usize,
+                "every cell has its own position"
             );
+            let (first, last) = (cells.keys().next(), cells.keys().last());
+            // An aligned square or cube of cells is one piece of the curve.
+            let length = first.zip(last).map(|(first, last)| last - first);
+            assert_eq!(length, Some(u128::from(count) - 1));
             let steps: Vec<_> = cells.values().collect();
             for pair in steps.windows(2) {
                 assert_eq!((*pair[0] - *pair[1]).abs().element_sum(), 1.0);
@@ -137,10 +149,20 @@ mod tests {
     }
 
     #[test]
-    fn consecutive_positions_are_neighbours_in_space() {
-        check(hilbert_key, CELLS_PER_METRE, BITS);
-        let short = |point| u128::from(short_hilbert_key(point));
-        check(short, SHORT_CELLS_PER_METRE, SHORT_BITS);
+    fn consecutive_positions_are_neighbours() {
+        check(hilbert_key, CELLS_PER_METRE, BITS, [16; 3]);
+        let in_plan = |point| u128::from(plan_key(point) >> HEIGHT_BITS);
+        check(in_plan, PLAN_CELLS_PER_METRE, PLAN_BITS, [64, 64, 1]);
+    }
+
+    #[test]
+    fn height_comes_last() {
+        let at = |x, y, z| plan_key(DVec3::new(x, y, z));
+        assert!(at(5.0, 5.0, -3.0) < at(5.0, 5.0, 8.0));
+        assert_eq!(
+            at(5.0, 5.0, -3.0) < at(60.0, 5.0, 0.0),
+            at(5.0, 5.0, 8.0) < at(60.0, 5.0, -9.0)
+        );
     }
 
     #[test]

@@ -34,7 +34,7 @@ pub use feature_set::{FeatureSet, MOST_IN_SET, MalformedSet, OversizedSet, SetCo
 pub use field_of_view::{
     Camera, DepthRange, Frustum, MatrixDefect, ViewCone, ViewSector, in_range,
 };
-pub use hilbert::{hilbert_key, short_hilbert_key};
+pub use hilbert::{hilbert_key, plan_key};
 pub use mesh::{
     Closedness, Extrusion, GROUND_TOLERANCE, InnerEnvelope, MeshDefect, PolygonDefect,
     TriangleMesh, deviation, extruded, inner_envelope, triangulate,

@@ -9,6 +9,7 @@ use engine::BoxRange;
 use pgrx::pg_sys;
 
 direct_function! {
+    unguarded
     /// Whether a subtree (or, at a leaf, a row) can satisfy the query; exact in every case.
     ///
     /// The query's SQL type follows from the strategy, so it comes as a bare pointer.
@@ -37,6 +38,7 @@ direct_function! {
 }
 
 direct_function! {
+    unguarded
     /// The distance of a key from the query, for scans that return the nearest first.
     fn box3d_gist_distance(
         entry: Raw<pg_sys::GISTENTRY>,

@@ -1,5 +1,6 @@
 //! The order in which a sorted build packs boxes onto pages: that of their centres on Hilbert's
-//! curve, so that neighbours share a page (I. Kamel and C. Faloutsos, "On packing R-trees", 1993).
+//! curve in plan, so that neighbours share a page (I. Kamel and C. Faloutsos, "On packing R-trees",
+//! 1993).
 
 use super::query::read;
 use crate::types::Raw;
@@ -94,5 +95,5 @@ unsafe fn center(key: pg_sys::Datum) -> DVec3 {
 unsafe fn position(point: &DVec3, sort: pg_sys::SortSupport) -> u64 {
     // SAFETY: as the caller says.
     let origin = unsafe { &mut *(*sort).ssup_extra.cast::<Option<DVec3>>() };
-    engine::short_hilbert_key(*point - *origin.get_or_insert(*point))
+    engine::plan_key(*point - *origin.get_or_insert(*point))
 }

@@ -1,5 +1,6 @@
 //! [`Query`], what an index on `box3d` is asked for.
 
+use crate::direct_call::guarded;
 use crate::error::Refusal;
 use crate::field_of_view::{FieldOfView, with_prepared};
 use crate::types::{Box3d, Frustum, Point3d, ViewCone, ViewSector};
@@ -37,30 +38,29 @@ mod strategy {
 }
 
 /// What a scan looks for.
-pub enum Query {
+pub enum Query<'a> {
     /// Boxes that lie so to a given one.
-    Boxes(BoxRelation, engine::Box3d),
+    Boxes(BoxRelation, &'a engine::Box3d),
+    /// Boxes that hold a point.
+    Holding(&'a DVec3),
     /// Boxes that share a point with a field of view.
     InView(FieldOfView),
 }
 
-impl Query {
+impl Query<'_> {
     /// What an operator's strategy number and its right argument ask for.
     ///
     /// # Safety
     /// The argument must be of the type that the operator class gives the strategy.
+    #[inline(always)]
     pub unsafe fn of(strategy: u16, argument: pg_sys::Datum) -> Self {
         // SAFETY: all these types are passed by reference, and the caller vouches for which it is.
         unsafe {
             if let Some(relation) = relation(strategy) {
-                return Self::Boxes(relation, read::<Box3d>(argument).0);
+                return Self::Boxes(relation, &*argument.cast_mut_ptr());
             }
             match strategy {
-                strategy::CONTAINS_POINT => {
-                    let point = read::<Point3d>(argument).0;
-                    let point = engine::Box3d::new(point, point);
-                    Self::Boxes(BoxRelation::Contains, point)
-                }
+                strategy::CONTAINS_POINT => Self::Holding(&*argument.cast_mut_ptr()),
                 strategy::MEETS_CONE => Self::InView(FieldOfView::Cone(read::<ViewCone>(argument))),
                 strategy::MEETS_SECTOR => {
                     Self::InView(FieldOfView::Sector(read::<ViewSector>(argument)))
@@ -91,20 +91,24 @@ impl Query {
     }
 
     /// Whether a box is one of those looked for; exact.
+    #[inline(always)]
     pub fn holds(&self, call: pg_sys::FunctionCallInfo, key: &engine::Box3d) -> bool {
         match self {
             Self::Boxes(relation, other) => relation.holds(key, other),
-            Self::InView(view) => with_prepared(call, *view, |view| view.meets(key)),
+            Self::Holding(point) => key.contains_point(**point),
+            Self::InView(view) => guarded(|| with_prepared(call, *view, |view| view.meets(key))),
         }
     }
 
     /// Whether some box of a range may be one of those looked for.
+    #[inline(always)]
     pub fn possible(&self, call: pg_sys::FunctionCallInfo, range: &BoxRange) -> bool {
         match self {
             Self::Boxes(relation, other) => relation.possible(range, other),
+            Self::Holding(point) => range.bounds().contains_point(**point),
             Self::InView(view) => {
                 let bounds = finite(range.bounds());
-                with_prepared(call, *view, |view| view.meets(&bounds))
+                guarded(|| with_prepared(call, *view, |view| view.meets(&bounds)))
             }
         }
     }
@@ -134,6 +138,7 @@ impl Nearest {
 
     /// The distance of a box, as the operator gives it; for a box around others, no greater than
     /// theirs.
+    #[inline]
     pub fn distance(&self, key: &engine::Box3d) -> f64 {
         key.distance(&self.0)
     }
@@ -181,10 +186,13 @@ pub unsafe fn read<T: Copy>(datum: pg_sys::Datum) -> T {
     unsafe { datum.cast_mut_ptr::<T>().read() }
 }
 
+#[cold]
 fn unknown(strategy: u16) -> ! {
-    Refusal::new(
-        PgSqlErrorCode::ERRCODE_INTERNAL_ERROR,
-        format!("unknown strategy number {strategy} for box3d"),
-    )
-    .raise()
+    guarded(|| {
+        Refusal::new(
+            PgSqlErrorCode::ERRCODE_INTERNAL_ERROR,
+            format!("unknown strategy number {strategy} for box3d"),
+        )
+        .raise()
+    })
 }

@@ -188,7 +188,7 @@ fn medians(boxes: &[engine::Box3d]) -> engine::Box3d {
 ///
 /// # Safety
 /// They must be `count` keys of our operator class.
-unsafe fn queries(keys: *mut pg_sys::ScanKeyData, count: c_int) -> Vec<Query> {
+unsafe fn queries<'a>(keys: *mut pg_sys::ScanKeyData, count: c_int) -> Vec<Query<'a>> {
     // SAFETY: as the caller says.
     unsafe {
         let keys = slice(keys, count).iter();

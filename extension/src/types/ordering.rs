@@ -68,42 +68,49 @@ macro_rules! ordered_type {
         }
 
         $crate::direct_call::direct_function! {
+            unguarded
             fn $equals(a: $type, b: $type) -> bool {
                 $crate::types::ordering::Numbers::compare(&a, &b).is_eq()
             }
         }
 
         $crate::direct_call::direct_function! {
+            unguarded
             fn $differs(a: $type, b: $type) -> bool {
                 $crate::types::ordering::Numbers::compare(&a, &b).is_ne()
             }
         }
 
         $crate::direct_call::direct_function! {
+            unguarded
             fn $less(a: $type, b: $type) -> bool {
                 $crate::types::ordering::Numbers::compare(&a, &b).is_lt()
             }
         }
 
         $crate::direct_call::direct_function! {
+            unguarded
             fn $less_or_equal(a: $type, b: $type) -> bool {
                 $crate::types::ordering::Numbers::compare(&a, &b).is_le()
             }
         }
 
         $crate::direct_call::direct_function! {
+            unguarded
             fn $greater_or_equal(a: $type, b: $type) -> bool {
                 $crate::types::ordering::Numbers::compare(&a, &b).is_ge()
             }
         }
 
         $crate::direct_call::direct_function! {
+            unguarded
             fn $greater(a: $type, b: $type) -> bool {
                 $crate::types::ordering::Numbers::compare(&a, &b).is_gt()
             }
         }
 
         $crate::direct_call::direct_function! {
+            unguarded
             fn $compare(a: $type, b: $type) -> i32 {
                 $crate::types::ordering::Numbers::compare(&a, &b) as i32
             }

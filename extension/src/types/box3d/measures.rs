@@ -84,18 +84,21 @@ fn box3d_extend(extent: Option<Box3d>, point: Option<Point3d>) -> Option<Box3d> 
 }
 
 direct_function! {
+    unguarded
     fn box3d_distance(a: Box3d, b: Box3d) -> f64 {
         a.0.distance(&b.0)
     }
 }
 
 direct_function! {
+    unguarded
     fn box3d_distance_point(a: Box3d, point: Point3d) -> f64 {
         a.0.distance_to_point(point.0)
     }
 }
 
 direct_function! {
+    unguarded
     fn point3d_distance_box(point: Point3d, a: Box3d) -> f64 {
         a.0.distance_to_point(point.0)
     }

@@ -1,9 +1,9 @@
 //! BRIN for `box3d`: core's inclusion class keeps a box around each range of blocks, and this
 //! answers what such a box can hold. Core's own answer knows neither depth nor fields of view.
 
-use super::query::{Query, read};
+use super::query::Query;
 use crate::direct_call::direct_function;
-use crate::types::Raw;
+use crate::types::{Raw, read};
 use engine::BoxRange;
 use pgrx::pg_sys;
 

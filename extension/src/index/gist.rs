@@ -1,10 +1,10 @@
 //! GiST for `box3d`: Guttman's R-tree with the keys as they are, so that a scan needs no recheck
 //! and may be index-only.
 
-use super::query::{Nearest, Query, read};
+use super::query::{Nearest, Query};
 use super::split::split;
 use crate::direct_call::direct_function;
-use crate::types::{Box3d, Raw};
+use crate::types::{Box3d, Raw, read};
 use engine::BoxRange;
 use pgrx::pg_sys;
 

@@ -2,8 +2,7 @@
 //! curve in plan, so that neighbours share a page (I. Kamel and C. Faloutsos, "On packing R-trees",
 //! 1993).
 
-use super::query::read;
-use crate::types::Raw;
+use crate::types::{Box3d, Raw, read};
 use glam::DVec3;
 use pgrx::{pg_extern, pg_sys};
 use std::cmp::Ordering;
@@ -71,7 +70,7 @@ unsafe extern "C-unwind" fn compare(
             }
         };
         let by_size = || {
-            let [a, b] = [a, b].map(|key| read::<engine::Box3d>(key).size().to_array());
+            let [a, b] = [a, b].map(|key| read::<Box3d>(key).0.size().to_array());
             a.partial_cmp(&b).unwrap_or(Ordering::Equal)
         };
         coarse.then_with(fine).then_with(by_size) as c_int
@@ -84,8 +83,7 @@ unsafe extern "C-unwind" fn compare(
 /// The datum must be one.
 unsafe fn center(key: pg_sys::Datum) -> DVec3 {
     // SAFETY: as the caller says.
-    let key: engine::Box3d = unsafe { read(key) };
-    key.min * 0.5 + key.max * 0.5
+    unsafe { read::<Box3d>(key) }.center()
 }
 
 /// The position of a point on the curve around the first point of the sort.

@@ -3,7 +3,7 @@
 use crate::direct_call::guarded;
 use crate::error::Refusal;
 use crate::field_of_view::{FieldOfView, with_prepared};
-use crate::types::{Box3d, Frustum, Point3d, ViewCone, ViewSector};
+use crate::types::{Box3d, Frustum, Point3d, ViewCone, ViewSector, read};
 use engine::{BoxRange, BoxRelation};
 use glam::DVec3;
 use pgrx::{IntoDatum, PgSqlErrorCode, pg_sys};
@@ -175,15 +175,6 @@ fn finite(bounds: engine::Box3d) -> engine::Box3d {
         min: bounds.min.max(DVec3::splat(f64::MIN)),
         max: bounds.max.min(DVec3::splat(f64::MAX)),
     }
-}
-
-/// A value passed by reference.
-///
-/// # Safety
-/// The datum must point to a `T`.
-pub unsafe fn read<T: Copy>(datum: pg_sys::Datum) -> T {
-    // SAFETY: as the caller says.
-    unsafe { datum.cast_mut_ptr::<T>().read() }
 }
 
 #[cold]

@@ -1,14 +1,14 @@
 //! SP-GiST for `box3d`: a box is a point of six dimensions, and an inner node splits space in 64 at
 //! the medians of the six (as core does for plane boxes, in four).
 
-use super::query::{Nearest, Query, read};
+use super::query::{Nearest, Query};
 use super::spgist_sys::{
     SPG_MATCH_NODE, SpgChooseIn, SpgChooseOut, SpgConfigOut, SpgInnerConsistentIn,
     SpgInnerConsistentOut, SpgLeafConsistentIn, SpgLeafConsistentOut, SpgPickSplitIn,
     SpgPickSplitOut,
 };
 use crate::direct_call::direct_function;
-use crate::types::{Box3d, Raw};
+use crate::types::{Box3d, Raw, read};
 use engine::BoxRange;
 use glam::DVec3;
 use pgrx::{IntoDatum, pg_sys};

@@ -1,9 +1,8 @@
 //! How many features of a scene a field of view returns, from what ANALYZE found.
 
 use super::column::{analyzed, fixed_part};
-use super::query::{Query, read, type_name};
+use super::query::{Query, type_name};
 use super::support::Arguments;
-use crate::types::Point3d;
 use engine::BoxRelation;
 use pgrx::{FromDatum, pg_sys};
 use std::ffi::{CStr, CString};
@@ -34,10 +33,10 @@ pub fn visible_rows(arguments: &Arguments) -> Option<f64> {
 fn field_of_view(arguments: &Arguments) -> Option<Query> {
     let view = arguments.get(1)?;
     match Query::of(view)? {
-        Query::Bounds(_) if type_name(view.consttype) == "occlusion.point3d" => {
+        Query::Bounds(bounds) if type_name(view.consttype) == "occlusion.point3d" => {
             // SAFETY: after an observer comes the range, of type float8.
             let range = unsafe { f64::from_datum(arguments.get(2)?.constvalue, false)? };
-            Some(Query::InRange(read::<Point3d>(view.constvalue).0, range))
+            Some(Query::InRange(bounds.min, range))
         }
         Query::Bounds(_) => None,
         view => Some(view),

@@ -1,7 +1,7 @@
 //! [`Query`], the constant that boxes are compared with.
 
 use crate::field_of_view::{FieldOfView, Prepared};
-use crate::types::{Box3d, Point3d};
+use crate::types::{Box3d, Point3d, read};
 use engine::{BoxRelation, BoxStatistics};
 use glam::DVec3;
 use pgrx::pg_sys;
@@ -22,17 +22,21 @@ impl Query {
     pub fn of(constant: &pg_sys::Const) -> Option<Self> {
         let value = constant.constvalue;
         let in_view = |view: FieldOfView| Self::InView(Box::new(view.prepared()));
-        Some(match type_name(constant.consttype).as_str() {
-            "occlusion.box3d" => Self::Bounds(read::<Box3d>(value).0),
-            "occlusion.point3d" => {
-                let point = read::<Point3d>(value).0;
-                Self::Bounds(engine::Box3d::new(point, point))
-            }
-            "occlusion.view_cone" => in_view(FieldOfView::Cone(read(value))),
-            "occlusion.view_sector" => in_view(FieldOfView::Sector(read(value))),
-            "occlusion.frustum" => in_view(FieldOfView::Frustum(read(value))),
-            _ => return None,
-        })
+        let name = type_name(constant.consttype);
+        // SAFETY: the constant is not null, and its type's name tells what it points to.
+        unsafe {
+            Some(match name.as_str() {
+                "occlusion.box3d" => Self::Bounds(read::<Box3d>(value).0),
+                "occlusion.point3d" => {
+                    let point = read::<Point3d>(value).0;
+                    Self::Bounds(engine::Box3d::new(point, point))
+                }
+                "occlusion.view_cone" => in_view(FieldOfView::Cone(read(value))),
+                "occlusion.view_sector" => in_view(FieldOfView::Sector(read(value))),
+                "occlusion.frustum" => in_view(FieldOfView::Frustum(read(value))),
+                _ => return None,
+            })
+        }
     }
 
     /// The share of boxes that stand in `relation` to the query; one that meets a field of view
@@ -54,10 +58,4 @@ pub fn type_name(oid: pg_sys::Oid) -> String {
     unsafe { CStr::from_ptr(pg_sys::format_type_be_qualified(oid)) }
         .to_string_lossy()
         .into_owned()
-}
-
-/// The value of a datum whose type's name was found to be that of `T`.
-pub fn read<T: Copy>(datum: pg_sys::Datum) -> T {
-    // SAFETY: such a datum that is not null points to the value.
-    unsafe { datum.cast_mut_ptr::<T>().read() }
 }

@@ -79,6 +79,15 @@ macro_rules! fixed_length_type {
 }
 pub(super) use fixed_length_type;
 
+/// A value passed by reference.
+///
+/// # Safety
+/// The datum must point to a `T`.
+pub unsafe fn read<T: Copy>(datum: pgrx::pg_sys::Datum) -> T {
+    // SAFETY: as the caller says.
+    unsafe { datum.cast_mut_ptr::<T>().read() }
+}
+
 /// An argument of SQL type `internal` that is known to point to a `T`.
 pub struct Raw<T>(NonNull<T>);
 

@@ -14,7 +14,7 @@ mod view_sector;
 mod wire;
 
 pub use box3d::Box3d;
-pub use datum::Raw;
+pub use datum::{Raw, read};
 pub use feature_set::StoredSet;
 pub use frustum::Frustum;
 pub use point3d::Point3d;

@@ -22,12 +22,11 @@ impl Literal {
     /// The numbers of a literal, in order.
     pub fn parse(&self, text: &str) -> Result<Vec<f64>, Refusal> {
         self.numbers(text).ok_or_else(|| {
-            let shown: String = text.chars().take(QUOTED).collect();
-            let more = if shown.len() < text.len() { "…" } else { "" };
+            let shown = shortened(text);
             Refusal::new(
                 PgSqlErrorCode::ERRCODE_INVALID_TEXT_REPRESENTATION,
                 format!(
-                    "invalid input syntax for type {}: \"{shown}{more}\"",
+                    "invalid input syntax for type {}: \"{shown}\"",
                     self.type_name
                 ),
             )
@@ -63,4 +62,13 @@ impl Literal {
         }
         Some(numbers)
     }
+}
+
+/// Text as it is quoted in a message.
+pub fn shortened(text: &str) -> String {
+    let mut shown: String = text.chars().take(QUOTED).collect();
+    if shown.len() < text.len() {
+        shown.push('…');
+    }
+    shown
 }

@@ -31,8 +31,7 @@ fn box3d_surface_area(value: Box3d) -> f64 {
 
 #[pg_extern(immutable, strict, parallel_safe)]
 fn box3d_center(value: Box3d) -> Point3d {
-    // Halved first: the sum of two huge coordinates is infinite.
-    Point3d(value.0.min * 0.5 + value.0.max * 0.5)
+    Point3d(value.center())
 }
 
 #[pg_extern(immutable, strict, parallel_safe)]

@@ -9,6 +9,7 @@ use super::ordering::ordered_type;
 use super::text::Literal;
 use super::{Point3d, Raw, wire};
 use crate::error::{Refusal, or_raise};
+use glam::DVec3;
 use pgrx::{Array, pg_extern, pg_sys};
 use std::ffi::{CStr, CString};
 
@@ -44,6 +45,11 @@ impl Box3d {
         let corner = Point3d::checked([c[0], c[1], c[2]], "box3d")?;
         let opposite = Point3d::checked([c[3], c[4], c[5]], "box3d")?;
         Ok(Self(engine::Box3d::new(corner.0, opposite.0)))
+    }
+
+    /// The middle. Halved first: the sum of two huge coordinates is infinite.
+    pub fn center(&self) -> DVec3 {
+        self.0.min * 0.5 + self.0.max * 0.5
     }
 
     /// A box that was computed, unless it left the bounds of numbers.

@@ -2,14 +2,12 @@
 
 use super::{StoredSet, within_bounds};
 use crate::error::Refusal;
+use crate::types::text::shortened;
 use crate::types::{Raw, text_result, wire};
 use engine::{FeatureSet, SetCollector};
 use pgrx::{PgSqlErrorCode, pg_extern, pg_sys};
 use std::ffi::{CStr, CString};
 use std::fmt::Write;
-
-/// Longest literal quoted whole in a message.
-const QUOTED: usize = 100;
 
 #[pg_extern(immutable, strict, parallel_safe)]
 fn feature_set_in(text: &CStr) -> Vec<u8> {
@@ -91,14 +89,6 @@ fn malformed(text: &str, detail: &str) -> ! {
     )
     .detail(detail)
     .raise()
-}
-
-fn shortened(text: &str) -> String {
-    let mut shown: String = text.chars().take(QUOTED).collect();
-    if shown.len() < text.len() {
-        shown.push('…');
-    }
-    shown
 }
 
 #[pg_extern(immutable, strict, parallel_safe)]

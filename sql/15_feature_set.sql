@@ -42,7 +42,8 @@ CREATE FUNCTION occlusion.greatest_number(occlusion.feature_set) RETURNS bigint
     LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'feature_set_greatest_wrapper';
 COMMENT ON FUNCTION occlusion.greatest_number(occlusion.feature_set) IS 'greatest number of a set; NULL if it is empty';
 CREATE FUNCTION occlusion.unnest(occlusion.feature_set) RETURNS SETOF bigint
-    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE ROWS 500 AS 'MODULE_PATHNAME', 'feature_set_unnest_wrapper';
+    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE ROWS 500 SUPPORT occlusion.feature_set_unnest_support
+    AS 'MODULE_PATHNAME', 'feature_set_unnest_wrapper';
 COMMENT ON FUNCTION occlusion.unnest(occlusion.feature_set) IS 'the numbers of a set as rows, ascending';
 
 -- A set has one form, so it is equal when its bytes are: core's functions for bytea compare and hash

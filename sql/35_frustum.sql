@@ -77,19 +77,21 @@ COMMENT ON FUNCTION occlusion.corners(occlusion.frustum) IS
     'the eight corners of a frustum: four on the near plane, four on the far plane, each from the lower left anticlockwise, as the observer sees them';
 
 CREATE FUNCTION occlusion.meets(occlusion.box3d, occlusion.frustum) RETURNS boolean
-    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'box3d_meets_frustum_wrapper';
+    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE COST 5 AS 'MODULE_PATHNAME', 'box3d_meets_frustum_wrapper';
 COMMENT ON FUNCTION occlusion.meets(occlusion.box3d, occlusion.frustum) IS 'implementation of &&';
 CREATE FUNCTION occlusion.meets(occlusion.frustum, occlusion.box3d) RETURNS boolean
-    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'frustum_meets_box3d_wrapper';
+    LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE COST 5 AS 'MODULE_PATHNAME', 'frustum_meets_box3d_wrapper';
 COMMENT ON FUNCTION occlusion.meets(occlusion.frustum, occlusion.box3d) IS 'implementation of &&';
 CREATE OPERATOR occlusion.&& (
     LEFTARG = occlusion.box3d, RIGHTARG = occlusion.frustum, FUNCTION = occlusion.meets,
-    COMMUTATOR = OPERATOR(occlusion.&&), RESTRICT = areasel, JOIN = areajoinsel
+    COMMUTATOR = OPERATOR(occlusion.&&),
+    RESTRICT = occlusion.box3d_selectivity, JOIN = occlusion.box3d_join_selectivity
 );
 COMMENT ON OPERATOR occlusion.&& (occlusion.box3d, occlusion.frustum) IS 'meets the frustum, exactly';
 CREATE OPERATOR occlusion.&& (
     LEFTARG = occlusion.frustum, RIGHTARG = occlusion.box3d, FUNCTION = occlusion.meets,
-    COMMUTATOR = OPERATOR(occlusion.&&), RESTRICT = areasel, JOIN = areajoinsel
+    COMMUTATOR = OPERATOR(occlusion.&&),
+    RESTRICT = occlusion.box3d_selectivity, JOIN = occlusion.box3d_join_selectivity
 );
 COMMENT ON OPERATOR occlusion.&& (occlusion.frustum, occlusion.box3d) IS 'meets the box, exactly';
 

@@ -58,6 +58,7 @@ COMMENT ON FUNCTION occlusion.visible_features_statement(text, boolean) IS
 CREATE FUNCTION occlusion.visible_features(scene text, cone occlusion.view_cone)
 RETURNS TABLE (feature_id bigint, class text, envelope occlusion.box3d, distance float8)
 LANGUAGE plpgsql STABLE STRICT PARALLEL SAFE ROWS 100 COST 10000
+SUPPORT occlusion.visible_features_support
 SET search_path = pg_catalog, pg_temp AS $$
 BEGIN
     PERFORM occlusion.require_scene(scene);
@@ -71,6 +72,7 @@ COMMENT ON FUNCTION occlusion.visible_features(text, occlusion.view_cone) IS
 CREATE FUNCTION occlusion.visible_features(scene text, sector occlusion.view_sector)
 RETURNS TABLE (feature_id bigint, class text, envelope occlusion.box3d, distance float8)
 LANGUAGE plpgsql STABLE STRICT PARALLEL SAFE ROWS 100 COST 10000
+SUPPORT occlusion.visible_features_support
 SET search_path = pg_catalog, pg_temp AS $$
 BEGIN
     PERFORM occlusion.require_scene(scene);
@@ -84,6 +86,7 @@ COMMENT ON FUNCTION occlusion.visible_features(text, occlusion.view_sector) IS
 CREATE FUNCTION occlusion.visible_features(scene text, observer occlusion.point3d, range float8)
 RETURNS TABLE (feature_id bigint, class text, envelope occlusion.box3d, distance float8)
 LANGUAGE plpgsql STABLE STRICT PARALLEL SAFE ROWS 100 COST 10000
+SUPPORT occlusion.visible_features_support
 SET search_path = pg_catalog, pg_temp AS $$
 BEGIN
     PERFORM occlusion.require_scene(scene);

@@ -3,6 +3,7 @@
 CREATE FUNCTION occlusion.visible_features(scene text, view occlusion.frustum)
 RETURNS TABLE (feature_id bigint, class text, envelope occlusion.box3d, distance float8)
 LANGUAGE plpgsql STABLE STRICT PARALLEL SAFE ROWS 100 COST 10000
+SUPPORT occlusion.visible_features_support
 SET search_path = pg_catalog, pg_temp AS $$
 BEGIN
     PERFORM occlusion.require_scene(scene);

@@ -4,7 +4,7 @@ CREATE FUNCTION occlusion.feature_models(scene text, features bigint[], format t
                                          level_of_detail float8 DEFAULT NULL,
                                          most_error float8[] DEFAULT NULL)
 RETURNS TABLE (feature_id bigint, level_of_detail float8, content bytea)
-LANGUAGE c STABLE PARALLEL SAFE ROWS 100 COST 10000
+LANGUAGE c STABLE PARALLEL SAFE ROWS 100 COST 10000 SUPPORT occlusion.feature_models_support
 SET search_path = pg_catalog, pg_temp
 AS 'MODULE_PATHNAME', 'feature_models_wrapper';
 COMMENT ON FUNCTION occlusion.feature_models(text, bigint[], text, float8, float8[]) IS

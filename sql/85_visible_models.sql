@@ -29,6 +29,7 @@ CREATE OR REPLACE FUNCTION occlusion.visible_models(scene text, cone occlusion.v
                                                     error_angle float8 DEFAULT NULL)
 RETURNS TABLE (feature_id bigint, class text, distance float8, level_of_detail float8, content bytea)
 LANGUAGE sql STABLE PARALLEL SAFE ROWS 100 COST 100000
+SUPPORT occlusion.visible_features_support
 SET search_path = pg_catalog, pg_temp AS $$
     SELECT m.*
     FROM (SELECT array_agg(v.feature_id), array_agg(v.class), array_agg(v.distance)
@@ -43,6 +44,7 @@ CREATE OR REPLACE FUNCTION occlusion.visible_models(scene text, sector occlusion
                                                     error_angle float8 DEFAULT NULL)
 RETURNS TABLE (feature_id bigint, class text, distance float8, level_of_detail float8, content bytea)
 LANGUAGE sql STABLE PARALLEL SAFE ROWS 100 COST 100000
+SUPPORT occlusion.visible_features_support
 SET search_path = pg_catalog, pg_temp AS $$
     SELECT m.*
     FROM (SELECT array_agg(v.feature_id), array_agg(v.class), array_agg(v.distance)
@@ -57,6 +59,7 @@ CREATE OR REPLACE FUNCTION occlusion.visible_models(scene text, view occlusion.f
                                                     error_angle float8 DEFAULT NULL)
 RETURNS TABLE (feature_id bigint, class text, distance float8, level_of_detail float8, content bytea)
 LANGUAGE sql STABLE PARALLEL SAFE ROWS 100 COST 100000
+SUPPORT occlusion.visible_features_support
 SET search_path = pg_catalog, pg_temp AS $$
     SELECT m.*
     FROM (SELECT array_agg(v.feature_id), array_agg(v.class), array_agg(v.distance)
@@ -71,6 +74,7 @@ CREATE OR REPLACE FUNCTION occlusion.visible_models(scene text, observer occlusi
                                                     error_angle float8 DEFAULT NULL)
 RETURNS TABLE (feature_id bigint, class text, distance float8, level_of_detail float8, content bytea)
 LANGUAGE sql STABLE PARALLEL SAFE ROWS 100 COST 100000
+SUPPORT occlusion.visible_features_support
 SET search_path = pg_catalog, pg_temp AS $$
     SELECT m.*
     FROM (SELECT array_agg(v.feature_id), array_agg(v.class), array_agg(v.distance)

@@ -1,0 +1,3 @@
+-- What the planner asks.
+
+-- include sql/05_planner.sql

@@ -212,6 +212,32 @@ FROM (SELECT a.id AS a, b.id AS b FROM indexed AS a, indexed AS b
 LEFT JOIN by_loop AS l ON l.a = plain.a AND l.b = plain.b;
 COMMIT;
 
+-- Another field of view for each row of a join: what was prepared for one does not serve the next.
+CREATE TEMPORARY TABLE eye AS
+SELECT i AS number, view_cone(eye, i * 37, 20 + i, 150, i % 3 * 10 - 10) AS cone, view_sector(eye, i * 37, 20 + i, 150) AS sector,
+       frustum(eye, i * 37, 0, 0, 20 + i, 1, 0, 150) AS frustum
+FROM generate_series(1, 40) AS i, LATERAL (SELECT point3d(25 * i, 1000 - 25 * i, 5 + i % 4) AS eye) AS e;
+CREATE FUNCTION pg_temp.seen(by_index boolean) RETURNS bigint[] LANGUAGE plpgsql AS $$
+DECLARE
+    statement text := 'SELECT number * 1000000::bigint + id AS pair FROM eye, indexed WHERE box && cone '
+        'UNION ALL SELECT number * 1000000::bigint + id FROM eye, indexed WHERE box && sector '
+        'UNION ALL SELECT number * 1000000::bigint + id FROM eye, indexed WHERE box && frustum';
+    pairs bigint[];
+BEGIN
+    PERFORM set_config('enable_indexscan', by_index::text, true), set_config('enable_bitmapscan', by_index::text, true),
+            set_config('enable_material', 'off', true), set_config('random_page_cost', '0.01', true);
+    ASSERT by_index = EXISTS (SELECT FROM pg_temp.scans(statement) AS scan WHERE scan ~ 'indexed_box');
+    EXECUTE format('SELECT array_agg(pair ORDER BY pair) FROM (%s) AS q', statement) INTO pairs;
+    RETURN pairs;
+END
+$$;
+SELECT pg_temp.build('spgist');
+SELECT pg_temp.seen(true) = pg_temp.seen(false) AS t;
+SELECT pg_temp.build('brin');
+SELECT pg_temp.seen(true) = pg_temp.seen(false) AS t;
+SELECT pg_temp.build('gist');
+SELECT pg_temp.seen(true) = pg_temp.seen(false) AS t, cardinality(pg_temp.seen(true)) > 1000 AS t;
+
 -- After rows came, went and moved, and vacuum; an index that starts empty, and one over nothing but duplicates.
 CREATE TABLE pg_temp.original AS TABLE indexed;
 CREATE FUNCTION pg_temp.right() RETURNS boolean LANGUAGE sql AS $$

@@ -15,6 +15,7 @@ mod field_of_view;
 mod hilbert;
 mod mesh;
 mod outer_prism;
+mod point_visibility;
 mod predicates;
 mod shadow_region;
 mod solid;
@@ -40,6 +41,9 @@ pub use mesh::{
     TriangleMesh, deviation, extruded, inner_envelope, triangulate,
 };
 pub use outer_prism::OuterPrism;
+pub use point_visibility::{
+    PointQuery, PointSolver, Sighting, Tile, TileFeature, TileSource, visible_from_point,
+};
 pub use shadow_region::ShadowRegion;
 pub use solid::{Hides, Repair, Solid};
 pub use solid_column::SolidColumn;

@@ -1,0 +1,30 @@
+//! What can be seen from one point: an occlusion horizon, walked front to back.
+//!
+//! The plan around the eye is seen through the four sides of a square. On a side, a point at depth
+//! `w` and offset `u` has the place `t = u / w`, and along a straight wall both `1 / w` and the slope
+//! to its top are linear in `t`. So the horizon, the highest slope below which all is hidden, is an
+//! upper envelope of straight pieces, kept exactly: no raster, and no trigonometry.
+
+mod horizon;
+mod occluder;
+mod projection;
+mod solver;
+mod target;
+mod tile;
+mod tree;
+
+pub use solver::{PointQuery, PointSolver, Sighting, TileSource, visible_from_point};
+pub use tile::{Tile, TileFeature};
+
+/// How far from a solid an eye counts as within it, metres: that solid hides nothing then, and a
+/// wall so near has no usable direction.
+const EYE_MARGIN: f64 = 1e-3;
+
+/// Relative slack between the slope of an occluder and that of its target: some ten million
+/// roundings of an `f64`, because a wall seen at [`EDGE_ON`] multiplies them by a million; on a
+/// tower of 100 m it is a micrometre. Each side gives way by as much, towards "visible".
+const SLOPE_MARGIN: f64 = 1e-8;
+
+/// Sine of the angle between a wall and the sight line below which it is seen edge on: it hides
+/// next to nothing then, and its slope could not be told from the roundings.
+const EDGE_ON: f64 = 1e-6;

@@ -1,0 +1,186 @@
+//! What the columns of a feature add to the horizon.
+
+use glam::{DVec2, DVec3};
+
+use super::horizon::Piece;
+use super::projection::{Edge, Facing, Side, Span};
+use super::tile::{Column, Feature, Tile, positions};
+use super::{EYE_MARGIN, SLOPE_MARGIN};
+
+/// Walls that lead away from the eye are cut where their depth has grown by this factor: each part
+/// hides only what is beyond all of it.
+const DEPTH_STEP: f64 = 1.25;
+
+/// Slack on the depth of a part, for the roundings of its ends.
+const DEPTH_MARGIN: f64 = 1e-8;
+
+/// A part of a wall, which hides what is farther than `depth`.
+#[derive(Clone, Copy, Debug)]
+pub struct Wall {
+    pub depth: f64,
+    pub side: Side,
+    pub piece: Piece,
+}
+
+/// Reads columns; its memory is kept from one to the next.
+#[derive(Clone, Debug, Default)]
+pub struct WallFinder {
+    edges: Vec<(Edge, Facing)>,
+}
+
+impl WallFinder {
+    /// Gives `found` the walls of a feature that can hide something from the eye.
+    pub fn walls(
+        &mut self,
+        tile: &Tile,
+        feature: &Feature,
+        eye: DVec3,
+        tag: u32,
+        found: &mut impl FnMut(Wall),
+    ) {
+        let nearest = eye.clamp(feature.envelope.min, feature.envelope.max);
+        let is_near = (nearest - eye).truncate().abs().max_element() <= EYE_MARGIN;
+        for column in &tile.columns[positions(&feature.columns)] {
+            if is_near && holds(tile, column, eye) {
+                continue;
+            }
+            for ring in &tile.rings[positions(&column.rings)] {
+                let corners = positions(ring);
+                let buried = &tile.buried[corners.clone()];
+                self.ring(&tile.corners[corners], buried, column.top, eye, tag, found);
+            }
+        }
+    }
+
+    /// The walls over one ring. Under the eye's height the far edges decide: what passes them has
+    /// gone over the top or met it. Above it the near ones do.
+    fn ring(
+        &mut self,
+        corners: &[DVec2],
+        buried: &[bool],
+        top: f64,
+        eye: DVec3,
+        tag: u32,
+        found: &mut impl FnMut(Wall),
+    ) {
+        let height = top - eye.z;
+        let (wanted, height) = if height >= 0.0 {
+            (Facing::Right, height * (1.0 - SLOPE_MARGIN))
+        } else {
+            (Facing::Left, height * (1.0 + SLOPE_MARGIN))
+        };
+        let count = corners.len();
+        let from_eye = |at: usize| corners[at % count] - eye.truncate();
+        self.edges.clear();
+        self.edges.extend((0..count).map(|at| {
+            let edge = Edge::new(from_eye(at), from_eye(at + 1));
+            (edge, edge.facing())
+        }));
+        for (at, (edge, facing)) in self.edges.iter().enumerate() {
+            if *facing != wanted || buried[at] {
+                continue;
+            }
+            // A sight line through a corner of two walls that both face it meets the inside.
+            let goes_on = |other: usize| self.edges[other % count].1 == wanted;
+            let (before, after) = (goes_on(at + count - 1), goes_on(at + 1));
+            let (begins, ends) = match wanted {
+                Facing::Left => (!before, !after),
+                _ => (!after, !before),
+            };
+            for (span, starts, stops) in edge.spans() {
+                let piece = |part: &Span, first: bool, last: bool| {
+                    let slope = part.scaled(height);
+                    Piece::new(
+                        &slope,
+                        first && starts && begins,
+                        last && stops && ends,
+                        tag,
+                    )
+                };
+                parts(&span, |part, depth, first, last| {
+                    found(Wall {
+                        depth,
+                        side: span.side,
+                        piece: piece(part, first, last),
+                    });
+                });
+            }
+        }
+    }
+}
+
+/// Cuts the inverse depth of a wall into parts of about one depth; gives each with its greatest
+/// depth, and whether it is the first and the last.
+fn parts(span: &Span, mut found: impl FnMut(&Span, f64, bool, bool)) {
+    let ends = [span.value(span.from), span.value(span.to)];
+    let (nearest, farthest) = (1.0 / ends[0].max(ends[1]), 1.0 / ends[0].min(ends[1]));
+    if !(nearest > 0.0 && farthest.is_finite()) {
+        return;
+    }
+    let recedes = ends[1] < ends[0];
+    let mut depth = nearest;
+    let mut done = if recedes { span.from } else { span.to };
+    let end = if recedes { span.to } else { span.from };
+    let mut is_start = true;
+    loop {
+        depth *= DEPTH_STEP;
+        let is_end = depth >= farthest;
+        let place = if is_end {
+            depth = farthest;
+            end
+        } else {
+            ((1.0 / depth - span.at_zero) / span.rise).clamp(span.from, span.to)
+        };
+        let part = Span {
+            from: done.min(place),
+            to: done.max(place),
+            ..*span
+        };
+        let (first, last) = if recedes {
+            (is_start, is_end)
+        } else {
+            (is_end, is_start)
+        };
+        found(&part, depth * (1.0 + DEPTH_MARGIN), first, last);
+        if is_end {
+            return;
+        }
+        done = place;
+        is_start = false;
+    }
+}
+
+/// Whether a column or its margin holds the eye.
+fn holds(tile: &Tile, column: &Column, eye: DVec3) -> bool {
+    if eye.z > column.top + EYE_MARGIN {
+        return false;
+    }
+    let eye = eye.truncate();
+    let mut crossings = 0;
+    for ring in &tile.rings[positions(&column.rings)] {
+        let corners = &tile.corners[positions(ring)];
+        for (at, &from) in corners.iter().enumerate() {
+            let to = corners[(at + 1) % corners.len()];
+            if distance(from - eye, to - eye) <= EYE_MARGIN {
+                return true;
+            }
+            // Farther from the edge than its roundings, so the sign is right.
+            let is_left = (from - eye).perp_dot(to - from) > 0.0;
+            let crosses = (from.y > eye.y) != (to.y > eye.y);
+            crossings += usize::from(crosses && is_left == (to.y > from.y));
+        }
+    }
+    crossings % 2 == 1
+}
+
+/// Distance from the origin to a straight edge.
+fn distance(from: DVec2, to: DVec2) -> f64 {
+    let along = to - from;
+    let length_2 = along.length_squared();
+    let share = if length_2 > 0.0 {
+        (-from.dot(along) / length_2).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    (from + along * share).length()
+}

@@ -1,0 +1,290 @@
+//! [`PointSolver`], what can be seen from one eye.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::convert::Infallible;
+use std::ops::ControlFlow;
+
+use glam::{DVec2, DVec3};
+
+use super::EYE_MARGIN;
+use super::horizon::Horizon;
+use super::occluder::{Wall, WallFinder};
+use super::projection::chebyshev;
+use super::target::outline_slopes;
+use super::tile::{Tile, TileFeature, positions};
+use crate::{Box3d, in_range};
+
+/// Where tiles come from: all their boxes are known, and what is in one only where it is asked for.
+pub trait TileSource {
+    /// Why a tile could not be had.
+    type Error;
+
+    /// A box that holds all of each tile.
+    fn bounds(&self) -> &[Box3d];
+
+    /// The tile at a position.
+    ///
+    /// # Errors
+    /// As the source has them.
+    fn tile(&mut self, position: usize) -> Result<&Tile, Self::Error>;
+}
+
+/// What is asked.
+#[derive(Clone, Copy, Debug)]
+pub struct PointQuery {
+    /// The observer's eye, metres.
+    pub eye: DVec3,
+    /// How far the eye sees, metres (Euclidean); may be infinite.
+    pub range: f64,
+    /// Whether features whose outer prism is hidden are left out, or only those whose outer envelope
+    /// is.
+    pub prisms: bool,
+}
+
+/// A feature that may be seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sighting {
+    /// Position of its tile.
+    pub tile: usize,
+    /// Its position in the tile.
+    pub feature: usize,
+    /// Distance of its outer envelope from the eye, metres.
+    pub distance: f64,
+}
+
+/// Finds what can be seen from one point, by an occlusion horizon that is raised front to back.
+///
+/// Conservative: what it leaves out cannot be seen (`docs/how-it-works.md`, "From a point"). Its
+/// memory is kept from one query to the next.
+#[derive(Debug)]
+pub struct PointSolver {
+    horizon: Horizon,
+    /// What is left to visit, nearest first.
+    open: BinaryHeap<Visit>,
+    /// Walls that the walk has not passed yet, nearest far end first.
+    pending: BinaryHeap<Pending>,
+    walls: Vec<Wall>,
+    finder: WallFinder,
+}
+
+impl Default for PointSolver {
+    fn default() -> Self {
+        Self {
+            horizon: Horizon::new(),
+            open: BinaryHeap::new(),
+            pending: BinaryHeap::new(),
+            walls: Vec::new(),
+            finder: WallFinder::default(),
+        }
+    }
+}
+
+impl PointSolver {
+    /// Adds to `visible` all features in range that may be seen, nearest box in plan first.
+    ///
+    /// # Errors
+    /// Those of the source.
+    pub fn solve<S: TileSource>(
+        &mut self,
+        query: &PointQuery,
+        source: &mut S,
+        visible: &mut Vec<Sighting>,
+    ) -> Result<(), S::Error> {
+        self.begin();
+        for (tile, bounds) in source.bounds().iter().enumerate() {
+            self.open(query, tile, None, bounds);
+        }
+        while let Some(visit) = self.open.pop() {
+            self.pass(visit.depth);
+            if self.hides_box(query.eye, &visit.bounds) {
+                continue;
+            }
+            let tile = source.tile(visit.tile)?;
+            let Some(node) = tile.tree.nodes.get(visit.node.unwrap_or(0) as usize) else {
+                continue;
+            };
+            // The root is entered through its tile, whose box may be larger.
+            if visit.node.is_none() && node.count == 0 {
+                self.open(query, visit.tile, Some(0), &node.bounds);
+                continue;
+            }
+            for child in node.first..node.first + node.count {
+                let bounds = &tile.tree.nodes[child as usize].bounds;
+                self.open(query, visit.tile, Some(child), bounds);
+            }
+            if node.count == 0 {
+                self.meet(query, visit.tile, tile, node.first as usize, visible);
+            }
+        }
+        Ok(())
+    }
+
+    fn begin(&mut self) {
+        self.horizon.clear();
+        self.open.clear();
+        self.pending.clear();
+        self.walls.clear();
+    }
+
+    /// Puts a box that is in range among those to visit.
+    fn open(&mut self, query: &PointQuery, tile: usize, node: Option<u32>, bounds: &Box3d) {
+        if in_range(query.eye, query.range, bounds) {
+            self.open.push(Visit {
+                depth: depth(query.eye, bounds),
+                tile,
+                node,
+                bounds: *bounds,
+            });
+        }
+    }
+
+    /// Raises the horizon by all walls that are nearer than all that is still to be visited.
+    fn pass(&mut self, depth: f64) {
+        while let Some(nearest) = self.pending.peek()
+            && nearest.depth < depth
+        {
+            let wall = &self.walls[nearest.wall];
+            self.horizon.raise(wall.side, &wall.piece);
+            self.pending.pop();
+        }
+    }
+
+    /// A feature whose envelope is not hidden: reports it unless its prism is, and takes its walls.
+    fn meet(
+        &mut self,
+        query: &PointQuery,
+        tile_position: usize,
+        tile: &Tile,
+        position: usize,
+        visible: &mut Vec<Sighting>,
+    ) {
+        let feature = &tile.features[position];
+        let outline = &tile.corners[positions(&feature.outline)];
+        if query.prisms && !outline.is_empty() {
+            let eye = query.eye.truncate();
+            let corners = outline.iter().map(|&corner| corner - eye);
+            let is_beside = depth(query.eye, &feature.envelope) > EYE_MARGIN;
+            if is_beside && self.hides(corners, feature.envelope.max.z - query.eye.z) {
+                return;
+            }
+        }
+        visible.push(Sighting {
+            tile: tile_position,
+            feature: position,
+            distance: feature.envelope.distance_to_point(query.eye),
+        });
+        let (walls, pending) = (&mut self.walls, &mut self.pending);
+        self.finder.walls(tile, feature, query.eye, 0, &mut |wall| {
+            pending.push(Pending {
+                depth: wall.depth,
+                wall: walls.len(),
+            });
+            walls.push(wall);
+        });
+    }
+
+    fn hides_box(&self, eye: DVec3, bounds: &Box3d) -> bool {
+        if depth(eye, bounds) <= EYE_MARGIN {
+            return false;
+        }
+        let (min, max) = (bounds.min - eye, bounds.max - eye);
+        let corners = [
+            DVec2::new(min.x, min.y),
+            DVec2::new(max.x, min.y),
+            DVec2::new(max.x, max.y),
+            DVec2::new(min.x, max.y),
+        ];
+        self.hides(corners.into_iter(), max.z)
+    }
+
+    fn hides(&self, corners: impl ExactSizeIterator<Item = DVec2> + Clone, top: f64) -> bool {
+        outline_slopes(corners, top, |line| match self.horizon.hides(line) {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(()),
+        })
+        .is_continue()
+    }
+}
+
+/// How near a box is in plan, by the greater of both offsets: the least depth of all its points.
+fn depth(eye: DVec3, bounds: &Box3d) -> f64 {
+    let nearest = DVec2::ZERO.clamp((bounds.min - eye).truncate(), (bounds.max - eye).truncate());
+    chebyshev(nearest)
+}
+
+/// Something to visit.
+#[derive(Clone, Copy, Debug)]
+struct Visit {
+    depth: f64,
+    tile: usize,
+    /// None for the tile itself.
+    node: Option<u32>,
+    bounds: Box3d,
+}
+
+/// A wall that is not part of the horizon yet.
+#[derive(Clone, Copy, Debug)]
+struct Pending {
+    depth: f64,
+    wall: usize,
+}
+
+/// Orders a heap by depth, the least on top.
+macro_rules! nearest_first {
+    ($type:ty) => {
+        impl Ord for $type {
+            fn cmp(&self, other: &Self) -> Ordering {
+                other.depth.total_cmp(&self.depth)
+            }
+        }
+        impl PartialOrd for $type {
+            fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+                Some(self.cmp(other))
+            }
+        }
+        impl PartialEq for $type {
+            fn eq(&self, other: &Self) -> bool {
+                self.cmp(other) == Ordering::Equal
+            }
+        }
+        impl Eq for $type {}
+    };
+}
+nearest_first!(Visit);
+nearest_first!(Pending);
+
+/// One tile, in memory.
+struct Single<'a> {
+    tile: &'a Tile,
+    bounds: Vec<Box3d>,
+}
+
+impl TileSource for Single<'_> {
+    type Error = Infallible;
+
+    fn bounds(&self) -> &[Box3d] {
+        &self.bounds
+    }
+
+    fn tile(&mut self, _: usize) -> Result<&Tile, Infallible> {
+        Ok(self.tile)
+    }
+}
+
+/// The numbers of those features that may be seen, of a scene that is given whole.
+#[must_use]
+pub fn visible_from_point(features: &[TileFeature], query: &PointQuery) -> Vec<i64> {
+    let tile = Tile::new(features);
+    let bounds = tile.bounds().into_iter().collect();
+    let mut source = Single {
+        tile: &tile,
+        bounds,
+    };
+    let mut visible = Vec::new();
+    let Ok(()) = PointSolver::default().solve(query, &mut source, &mut visible);
+    visible
+        .iter()
+        .map(|seen| tile.feature(seen.feature).0)
+        .collect()
+}

@@ -1,0 +1,68 @@
+//! Whether a prism is hidden: its highest slope, against the horizon.
+
+use std::ops::ControlFlow;
+
+use glam::DVec2;
+
+use super::SLOPE_MARGIN;
+use super::projection::{Edge, Facing, Side, Span};
+
+/// What is seen of a prism from outside its plan: its corners anticlockwise and relative to the eye,
+/// and how far its top is above the eye.
+///
+/// Gives `visit` the lines that bound its highest slopes from above, side by side, until it breaks.
+/// A top above the eye is highest where it is nearest; one below, where it is farthest. Breaks at
+/// once where no bound is known.
+pub fn outline_slopes(
+    corners: impl ExactSizeIterator<Item = DVec2> + Clone,
+    top: f64,
+    mut visit: impl FnMut(&Span) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    let is_above = top >= 0.0;
+    let top = if is_above {
+        top * (1.0 + SLOPE_MARGIN)
+    } else {
+        top * (1.0 - SLOPE_MARGIN)
+    };
+    let deciding = if is_above {
+        Facing::Right
+    } else {
+        Facing::Left
+    };
+    let next = corners.clone().cycle().skip(1);
+    for (from, to) in corners.zip(next) {
+        let edge = Edge::new(from, to);
+        match edge.facing() {
+            Facing::EdgeOn => visit(&level(&edge, top, is_above)?)?,
+            facing if facing == deciding => {
+                for (span, ..) in edge.spans() {
+                    visit(&span.scaled(top))?;
+                }
+            }
+            _ => {}
+        }
+    }
+    ControlFlow::Continue(())
+}
+
+/// A level line that bounds the slopes of an edge that is seen edge on.
+fn level(edge: &Edge, top: f64, is_above: bool) -> ControlFlow<(), Span> {
+    let [from, to] = edge.ends();
+    let side = Side::leaving(from);
+    let ((depth, _), (other_depth, _)) = (side.frame(from), side.frame(to));
+    let (place, other_place) = (side.place(from), side.place(to));
+    let is_known =
+        depth > 0.0 && other_depth > 0.0 && place.abs() <= 1.0 && other_place.abs() <= 1.0;
+    if !is_known {
+        return ControlFlow::Break(());
+    }
+    let nearest = depth.min(other_depth);
+    let farthest = depth.max(other_depth);
+    ControlFlow::Continue(Span {
+        side,
+        from: place.min(other_place),
+        to: place.max(other_place),
+        at_zero: top / if is_above { nearest } else { farthest },
+        rise: 0.0,
+    })
+}

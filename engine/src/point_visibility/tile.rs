@@ -1,0 +1,207 @@
+//! [`Tile`], the features of a neighbourhood as the solver reads them.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use geo::LineString;
+use glam::DVec2;
+
+use super::tree::Tree;
+use crate::{Box3d, SolidColumn};
+
+/// A feature as it is given to a tile.
+#[derive(Clone, Debug)]
+pub struct TileFeature {
+    /// Number of the feature.
+    pub id: i64,
+    /// Outer envelope, metres.
+    pub envelope: Box3d,
+    /// Corners of the outer prism, anticlockwise; none where only the envelope is known.
+    pub outline: Vec<DVec2>,
+    /// What hides. Only grounded columns within the envelope do, from a point.
+    pub columns: Vec<SolidColumn>,
+}
+
+/// The features of a neighbourhood with what hides in them, in a tree.
+#[derive(Clone, Debug, Default)]
+pub struct Tile {
+    pub(super) tree: Tree,
+    /// In the order of the leaves.
+    pub(super) features: Vec<Feature>,
+    pub(super) columns: Vec<Column>,
+    pub(super) rings: Vec<Range<u32>>,
+    /// Corners of rings and outlines.
+    pub(super) corners: Vec<DVec2>,
+    /// Of each corner, whether the edge that it begins lies in the feature's own solid.
+    pub(super) buried: Vec<bool>,
+}
+
+/// A feature of a tile.
+#[derive(Clone, Debug)]
+pub struct Feature {
+    pub id: i64,
+    pub envelope: Box3d,
+    pub outline: Range<u32>,
+    pub columns: Range<u32>,
+}
+
+/// A grounded column.
+#[derive(Clone, Debug)]
+pub struct Column {
+    pub top: f64,
+    /// Outer ring anticlockwise, then holes clockwise.
+    pub rings: Range<u32>,
+}
+
+impl Tile {
+    /// The tile of these features.
+    #[must_use]
+    pub fn new(features: &[TileFeature]) -> Self {
+        let boxes: Vec<Box3d> = features.iter().map(|feature| feature.envelope).collect();
+        let (tree, order) = Tree::new(&boxes);
+        let mut tile = Self {
+            tree,
+            ..Self::default()
+        };
+        for at in order {
+            tile.add(&features[at]);
+        }
+        tile
+    }
+
+    /// The smallest box that holds all of it; `None` when it is empty.
+    #[must_use]
+    pub fn bounds(&self) -> Option<Box3d> {
+        self.tree.bounds()
+    }
+
+    /// How many features it holds.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.features.len()
+    }
+
+    /// Whether it holds none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.features.is_empty()
+    }
+
+    /// Number and outer envelope of the feature at a position.
+    #[must_use]
+    pub fn feature(&self, position: usize) -> (i64, Box3d) {
+        let feature = &self.features[position];
+        (feature.id, feature.envelope)
+    }
+
+    fn add(&mut self, feature: &TileFeature) {
+        let outline = self.add_corners(feature.outline.iter().map(|&corner| (corner, false)));
+        let hiding: Vec<&SolidColumn> = feature
+            .columns
+            .iter()
+            .filter(|column| column.grounded && lies_within(column, &feature.envelope))
+            .collect();
+        let walls = Walls::of(&hiding);
+        let first = index(self.columns.len());
+        for column in hiding {
+            self.add_column(column, &walls);
+        }
+        self.features.push(Feature {
+            id: feature.id,
+            envelope: feature.envelope,
+            outline,
+            columns: first..index(self.columns.len()),
+        });
+    }
+
+    fn add_column(&mut self, column: &SolidColumn, walls: &Walls) {
+        let first = index(self.rings.len());
+        for ring in rings(column) {
+            let corners = corners(ring);
+            let edges = (0..corners.len()).map(|i| {
+                let next = corners[(i + 1) % corners.len()];
+                (corners[i], walls.bury(corners[i], next, column.top))
+            });
+            let range = self.add_corners(edges);
+            self.rings.push(range);
+        }
+        self.columns.push(Column {
+            top: column.top,
+            rings: first..index(self.rings.len()),
+        });
+    }
+
+    fn add_corners(&mut self, corners: impl Iterator<Item = (DVec2, bool)>) -> Range<u32> {
+        let first = index(self.corners.len());
+        for (corner, buried) in corners {
+            self.corners.push(corner);
+            self.buried.push(buried);
+        }
+        first..index(self.corners.len())
+    }
+}
+
+/// Greatest height of the columns of one feature behind each edge, by the places of its ends.
+struct Walls(HashMap<[u64; 4], f64>);
+
+impl Walls {
+    fn of(columns: &[&SolidColumn]) -> Self {
+        let mut walls = HashMap::new();
+        for column in columns {
+            for ring in rings(column) {
+                let corners = corners(ring);
+                for (i, &from) in corners.iter().enumerate() {
+                    let key = key(from, corners[(i + 1) % corners.len()]);
+                    let top = walls.entry(key).or_insert(f64::NEG_INFINITY);
+                    *top = column.top.max(*top);
+                }
+            }
+        }
+        Self(walls)
+    }
+
+    /// Whether an edge of a column lies in a column at least as high on its other side: what passes
+    /// it has met that one, or will.
+    fn bury(&self, from: DVec2, to: DVec2, top: f64) -> bool {
+        self.0
+            .get(&key(to, from))
+            .is_some_and(|&behind| behind >= top)
+    }
+}
+
+fn key(from: DVec2, to: DVec2) -> [u64; 4] {
+    [from.x, from.y, to.x, to.y].map(f64::to_bits)
+}
+
+fn rings(column: &SolidColumn) -> impl Iterator<Item = &LineString<f64>> {
+    std::iter::once(column.footprint.exterior()).chain(column.footprint.interiors())
+}
+
+/// The corners of a closed ring, the first not repeated.
+fn corners(ring: &LineString<f64>) -> Vec<DVec2> {
+    let mut corners: Vec<DVec2> = ring.coords().map(|c| DVec2::new(c.x, c.y)).collect();
+    if corners.len() > 1 && corners.first() == corners.last() {
+        corners.pop();
+    }
+    corners
+}
+
+/// Whether a column lies in its feature's envelope. One that does not is no part of the feature, and
+/// an edit of it would not be seen to concern this tile.
+fn lies_within(column: &SolidColumn, envelope: &Box3d) -> bool {
+    column.top <= envelope.max.z
+        && rings(column).flat_map(LineString::coords).all(|c| {
+            (envelope.min.x..=envelope.max.x).contains(&c.x)
+                && (envelope.min.y..=envelope.max.y).contains(&c.y)
+        })
+}
+
+/// A position as it is stored.
+fn index(position: usize) -> u32 {
+    u32::try_from(position).expect("a tile holds fewer than 4 billion corners")
+}
+
+/// A stored range as positions.
+pub fn positions(range: &Range<u32>) -> Range<usize> {
+    range.start as usize..range.end as usize
+}

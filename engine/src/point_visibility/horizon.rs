@@ -78,6 +78,9 @@ impl Slice {
                 .iter()
                 .take_while(|piece| piece.from < new.to)
                 .count();
+        if covered(&self.pieces[first..last], new) {
+            return;
+        }
         scratch.clear();
         let mut done = new.from;
         for &old in &self.pieces[first..last] {
@@ -195,6 +198,20 @@ fn crossing(at_zero: f64, rise: f64, from: f64, to: f64) -> f64 {
     (-at_zero / rise).clamp(from, to)
 }
 
+/// Whether pieces in a row cover a new one, so that it adds nothing.
+fn covered(pieces: &[Piece], new: &Piece) -> bool {
+    let mut done = new.from;
+    for old in pieces {
+        let (from, to) = (done, new.to.min(old.to));
+        let is_below = |t: f64| new.value(t) <= old.value(t);
+        if old.from > from || !is_below(from) || !is_below(to) {
+            return false;
+        }
+        done = to;
+    }
+    done >= new.to
+}
+
 /// Adds, of two pieces over one range, the higher parts.
 fn higher(scratch: &mut Vec<Piece>, new: &Piece, old: &Piece, from: f64, to: f64) {
     let lead = |t: f64| new.value(t) - old.value(t);
@@ -277,6 +294,21 @@ impl Horizon {
                 slot.settle(from, to);
             }
         }
+    }
+
+    /// Whether a piece would add nothing to one slice's worth of the horizon.
+    pub fn covers(&self, side: Side, piece: &Piece) -> bool {
+        let (first, last) = (slice_after(piece.from), slice_before(piece.to));
+        (first..=last).all(|slice| {
+            let (from, to) = bounds(slice);
+            let part = piece.part(piece.from.max(from), piece.to.min(to));
+            let slot = &self.slices[side.0 * SLICES + slice];
+            if part.value(part.from).max(part.value(part.to)) <= slot.floor {
+                return true;
+            }
+            let first = slot.pieces.partition_point(|old| old.to <= part.from);
+            covered(&slot.pieces[first..], &part)
+        })
     }
 
     /// Whether all of a line is below the horizon.

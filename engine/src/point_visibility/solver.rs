@@ -174,8 +174,11 @@ impl PointSolver {
             feature: position,
             distance: feature.envelope.distance_to_point(query.eye),
         });
-        let (walls, pending) = (&mut self.walls, &mut self.pending);
+        let (walls, pending, horizon) = (&mut self.walls, &mut self.pending, &self.horizon);
         self.finder.walls(tile, feature, query.eye, 0, &mut |wall| {
+            if horizon.covers(wall.side, &wall.piece) {
+                return;
+            }
             pending.push(Pending {
                 depth: wall.depth,
                 wall: walls.len(),

@@ -166,6 +166,7 @@ impl Walls {
         self.0
             .get(&key(to, from))
             .is_some_and(|&behind| behind >= top)
+            || self.0.get(&key(from, to)).is_some_and(|&here| here > top)
     }
 }
 

@@ -1,0 +1,379 @@
+//! What the solver from a point costs and how much it returns too much, against rays through the
+//! columns.
+//!
+//!     cargo run --release -p engine --example point_figures -- streets 100000 500
+//!     cargo run --release -p engine --example point_figures -- FILE 0 500 [HEIGHT]
+
+use std::collections::HashSet;
+use std::f64::consts::TAU;
+use std::time::Instant;
+
+use engine::{
+    Box3d, CityLayout, ColumnOptions, LocalGround, OuterPrism, PointQuery, PointSolver, Site,
+    SolidColumn, Street, Tile, TileFeature, TileSource, TriangleMesh, ViewRegionOptions, footprint,
+    generated_city, open_space, solid_columns,
+};
+use formats::{ReadOptions, read_bytes};
+use geo::{Area, BoundingRect, Contains, Point};
+use glam::{DVec2, DVec3};
+
+/// Observers that are timed, and how often the whole round is.
+const EYES: usize = 1000;
+const ROUNDS: usize = 5;
+
+/// Observers whose answers are held against rays, and rays around each.
+const JUDGED: usize = 12;
+const RAYS: usize = 32_768;
+
+/// Metres along a side of a tile.
+const TILE: f64 = 400.0;
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let number = |i: usize, usual: f64| {
+        arguments
+            .get(i)
+            .map_or(usual, |text| text.parse().expect("a number"))
+    };
+    let city = arguments.first().map_or("streets", String::as_str);
+    let (features, streets) = match city {
+        "streets" => made(number(1, 100_000.0) as usize),
+        file => read(file),
+    };
+    let range = number(2, 500.0);
+    let mut eyes = eyes(&streets);
+    let height = number(3, 0.0);
+    eyes.iter_mut().for_each(|eye| eye.z += height);
+    let begun = Instant::now();
+    let mut tiles = tiles(&features);
+    println!(
+        "{city}: {} features, {} tiles in {:.2} s, range {range} m, {height} m up",
+        features.len(),
+        tiles.tiles.len(),
+        begun.elapsed().as_secs_f64()
+    );
+    let mut solver = PointSolver::default();
+    for prisms in [false, true] {
+        let mut best = f64::INFINITY;
+        let mut returned = 0;
+        for _ in 0..ROUNDS {
+            let begun = Instant::now();
+            returned = 0;
+            for &eye in &eyes {
+                returned += answer(&mut solver, &mut tiles, eye, range, prisms).len();
+            }
+            best = best.min(begun.elapsed().as_secs_f64());
+        }
+        println!(
+            "prisms {prisms}: {:.1} us a query, {:.1} returned",
+            best / eyes.len() as f64 * 1e6,
+            returned as f64 / eyes.len() as f64
+        );
+    }
+    judge(&features, &eyes[..JUDGED], range, &mut solver, &mut tiles);
+}
+
+/// The features of a city in squares.
+struct Tiles {
+    bounds: Vec<Box3d>,
+    tiles: Vec<Tile>,
+}
+
+impl TileSource for Tiles {
+    type Error = std::convert::Infallible;
+
+    fn bounds(&self) -> &[Box3d] {
+        &self.bounds
+    }
+
+    fn tile(&mut self, position: usize) -> Result<&Tile, Self::Error> {
+        Ok(&self.tiles[position])
+    }
+}
+
+fn tiles(features: &[TileFeature]) -> Tiles {
+    let mut groups = std::collections::BTreeMap::new();
+    for feature in features {
+        let place = (feature.envelope.center() / TILE).floor();
+        let group: &mut Vec<TileFeature> =
+            groups.entry((place.x as i64, place.y as i64)).or_default();
+        group.push(feature.clone());
+    }
+    let tiles: Vec<Tile> = groups.values().map(|group| Tile::new(group)).collect();
+    Tiles {
+        bounds: tiles.iter().filter_map(Tile::bounds).collect(),
+        tiles,
+    }
+}
+
+fn answer(
+    solver: &mut PointSolver,
+    tiles: &mut Tiles,
+    eye: DVec3,
+    range: f64,
+    prisms: bool,
+) -> Vec<i64> {
+    let mut seen = Vec::new();
+    let query = PointQuery { eye, range, prisms };
+    let Ok(()) = solver.solve(&query, tiles, &mut seen);
+    seen.iter()
+        .map(|s| tiles.tiles[s.tile].feature(s.feature).0)
+        .collect()
+}
+
+fn judge(
+    features: &[TileFeature],
+    eyes: &[DVec3],
+    range: f64,
+    solver: &mut PointSolver,
+    tiles: &mut Tiles,
+) {
+    let mut totals = [[0usize; 3]; 2];
+    for &eye in eyes {
+        let near: Vec<&TileFeature> = features
+            .iter()
+            .filter(|f| f.envelope.distance_to_point(eye) <= range)
+            .collect();
+        for (prisms, total) in [false, true].into_iter().zip(&mut totals) {
+            let truth = seen_by_rays(&near, eye, prisms);
+            let answer: HashSet<i64> = answer(solver, tiles, eye, range, prisms)
+                .into_iter()
+                .collect();
+            total[0] += answer.len();
+            total[1] += truth.len();
+            total[2] += truth.difference(&answer).count();
+        }
+    }
+    for (name, [returned, visible, missed]) in ["box", "prism"].into_iter().zip(totals) {
+        println!(
+            "{name} truth by {RAYS} rays, {} eyes: returned {returned}, visible {visible}, missed \
+             {missed}, Q {:.4}",
+            eyes.len(),
+            (returned + missed) as f64 / visible as f64 - 1.0
+        );
+    }
+}
+
+/// Features whose box or prism some ray can see past the columns.
+fn seen_by_rays(near: &[&TileFeature], eye: DVec3, prisms: bool) -> HashSet<i64> {
+    let mut by_ray: Vec<Vec<u32>> = vec![Vec::new(); RAYS];
+    for (at, feature) in near.iter().enumerate() {
+        let (middle, half) = azimuths(&feature.envelope, eye);
+        let first = ((middle - half) / TAU * RAYS as f64).floor() as i64;
+        let last = ((middle + half) / TAU * RAYS as f64).ceil() as i64;
+        for ray in first..=last {
+            by_ray[ray.rem_euclid(RAYS as i64) as usize].push(at as u32);
+        }
+    }
+    let mut seen = HashSet::new();
+    for (ray, items) in by_ray.iter().enumerate() {
+        let angle = (ray as f64 + 0.5) / RAYS as f64 * TAU;
+        let direction = DVec2::new(angle.cos(), angle.sin());
+        // Distance from where a slope is blocked, slope, feature.
+        let mut blocks: Vec<(f64, f64, u32)> = Vec::new();
+        for &at in items {
+            for column in near[at as usize].columns.iter().filter(|c| c.grounded) {
+                let height = column.top - eye.z;
+                for (distance, enters) in crossings(column, eye, direction) {
+                    if enters == (height >= 0.0) {
+                        blocks.push((distance, height / distance, at));
+                    }
+                }
+            }
+        }
+        for &at in items {
+            let feature = near[at as usize];
+            let top = feature.envelope.max.z - eye.z;
+            let Some((enter, leave)) = range_of(feature, eye, direction, prisms) else {
+                continue;
+            };
+            let place = if top >= 0.0 { enter } else { leave };
+            let slope = top / place.max(1e-9);
+            let is_clear = blocks
+                .iter()
+                .all(|&(d, s, of)| of == at || d >= place || s <= slope);
+            if is_clear {
+                seen.insert(feature.id);
+            }
+        }
+    }
+    seen
+}
+
+/// Middle and half width of the azimuths of a box.
+fn azimuths(bounds: &Box3d, eye: DVec3) -> (f64, f64) {
+    let middle = (bounds.center() - eye).truncate();
+    let nearest = eye.clamp(bounds.min, bounds.max) - eye;
+    if nearest.truncate().length() < 1e-9 {
+        return (0.0, TAU / 2.0);
+    }
+    let half = bounds
+        .corners()
+        .map(|corner| middle.angle_to((corner - eye).truncate()).abs());
+    (middle.to_angle(), half.into_iter().fold(0.0, f64::max))
+}
+
+/// Where a ray crosses the rings of a column, and whether inwards.
+fn crossings(column: &SolidColumn, eye: DVec3, direction: DVec2) -> Vec<(f64, bool)> {
+    let mut found = Vec::new();
+    let rings = std::iter::once(column.footprint.exterior()).chain(column.footprint.interiors());
+    for line in rings.flat_map(|ring| ring.lines()) {
+        let a = DVec2::new(line.start.x, line.start.y) - eye.truncate();
+        let b = DVec2::new(line.end.x, line.end.y) - eye.truncate();
+        let (side_a, side_b) = (direction.perp_dot(a), direction.perp_dot(b));
+        if (side_a > 0.0) != (side_b > 0.0) {
+            let point = a + (b - a) * (side_a / (side_a - side_b));
+            let distance = point.dot(direction);
+            if distance > 0.0 {
+                found.push((distance, side_a > side_b));
+            }
+        }
+    }
+    found
+}
+
+fn range_of(
+    feature: &TileFeature,
+    eye: DVec3,
+    direction: DVec2,
+    prisms: bool,
+) -> Option<(f64, f64)> {
+    let bounds = &feature.envelope;
+    let corners = if prisms && feature.outline.len() > 2 {
+        feature.outline.clone()
+    } else {
+        let (min, max) = (bounds.min, bounds.max);
+        vec![
+            DVec2::new(min.x, min.y),
+            DVec2::new(max.x, min.y),
+            DVec2::new(max.x, max.y),
+            DVec2::new(min.x, max.y),
+        ]
+    };
+    let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
+    for i in 0..corners.len() {
+        let from = corners[i] - eye.truncate();
+        let along = corners[(i + 1) % corners.len()] - corners[i];
+        // Inside is to the left.
+        let depth = along.perp_dot(-from);
+        let rate = along.perp_dot(direction);
+        if rate > 0.0 {
+            enter = enter.max(-depth / rate);
+        } else if rate < 0.0 {
+            leave = leave.min(depth / -rate);
+        } else if depth < 0.0 {
+            return None;
+        }
+    }
+    (enter < leave).then_some((enter, leave))
+}
+
+fn made(count: usize) -> (Vec<TileFeature>, Vec<Street>) {
+    let city = generated_city(CityLayout::Streets, count, 1);
+    let features = city
+        .features()
+        .zip(0..)
+        .map(|(feature, id)| TileFeature {
+            id,
+            envelope: feature.envelope,
+            outline: outline(feature.mesh.vertices.iter().copied()),
+            columns: vec![feature.column],
+        })
+        .collect();
+    (features, city.streets().collect())
+}
+
+fn outline(points: impl Iterator<Item = DVec3>) -> Vec<DVec2> {
+    OuterPrism::around(points).map_or(Vec::new(), |prism| prism.hull)
+}
+
+fn read(file: &str) -> (Vec<TileFeature>, Vec<Street>) {
+    let bytes = std::fs::read(file).expect("a readable file");
+    let scene = read_bytes(file, &bytes, &ReadOptions::default()).expect("a city model");
+    let houses: Vec<(Box3d, TriangleMesh, Vec<DVec3>)> = scene.features.iter().map(house).collect();
+    let envelopes: Vec<Box3d> = houses.iter().map(|house| house.0).collect();
+    let ground = LocalGround::new(&envelopes);
+    let sites: Vec<Site> = houses
+        .iter()
+        .map(|(envelope, mesh, _)| Site {
+            footprint: footprint(mesh),
+            foot: envelope.min.z,
+        })
+        .collect();
+    let features = houses
+        .iter()
+        .zip(0..)
+        .map(|((envelope, mesh, points), id)| {
+            let stands = ground.holds(envelope, envelope.min.z);
+            let found = solid_columns(mesh, &ColumnOptions::default());
+            let columns = found.map_or(Vec::new(), |found| found.columns);
+            TileFeature {
+                id,
+                envelope: *envelope,
+                outline: outline(points.iter().copied()),
+                columns: columns
+                    .into_iter()
+                    .map(|column| SolidColumn {
+                        grounded: column.grounded && stands,
+                        ..column
+                    })
+                    .collect(),
+            }
+        })
+        .collect();
+    (features, open_space(&sites, &ViewRegionOptions::default()))
+}
+
+fn house(feature: &formats::Feature) -> (Box3d, TriangleMesh, Vec<DVec3>) {
+    let points = |geometry: &formats::Geometry| -> Vec<DVec3> {
+        let surfaces = geometry.surfaces();
+        let rings = surfaces.iter().flat_map(|surface| &surface.rings);
+        rings.flatten().map(|&point| DVec3::from(point)).collect()
+    };
+    let levels = feature.geometries.iter().map(|g| g.level_of_detail);
+    let best = levels.fold(0.0, f64::max);
+    let polygons = feature
+        .geometries
+        .iter()
+        .filter(|geometry| geometry.level_of_detail == best)
+        .flat_map(|geometry| geometry.surfaces().into_owned())
+        .map(|surface| -> Vec<Vec<DVec3>> {
+            let ring = |ring: Vec<[f64; 3]>| ring.into_iter().map(DVec3::from).collect();
+            surface.rings.into_iter().map(ring).collect()
+        });
+    let mesh = TriangleMesh::from_polygons(polygons);
+    let points: Vec<DVec3> = feature.geometries.iter().flat_map(points).collect();
+    (
+        Box3d::around(points.iter().copied()).expect("a point"),
+        mesh,
+        points,
+    )
+}
+
+/// Places on the streets, from a fixed sequence.
+fn eyes(streets: &[Street]) -> Vec<DVec3> {
+    let mut before = Vec::with_capacity(streets.len());
+    let mut total = 0.0;
+    for street in streets {
+        total += street.area.unsigned_area();
+        before.push(total);
+    }
+    let unit = |i: usize, base: f64| (i as f64 * base).fract();
+    let mut eyes = Vec::new();
+    for i in 1.. {
+        let place = unit(i, 0.754_877_666_246_693) * total;
+        let street = &streets[before
+            .partition_point(|&end| end <= place)
+            .min(streets.len() - 1)];
+        let rect = street.area.bounding_rect().expect("an area");
+        let x = rect.min().x + unit(i, 0.569_840_290_998_053) * rect.width();
+        let y = rect.min().y + unit(i, 0.362_656_070_415_29) * rect.height();
+        if street.area.contains(&Point::new(x, y)) {
+            eyes.push(DVec3::new(x, y, (street.eye_low + street.eye_high) / 2.0));
+        }
+        if eyes.len() == EYES {
+            break;
+        }
+    }
+    eyes
+}

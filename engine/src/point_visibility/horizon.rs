@@ -39,11 +39,13 @@ impl Piece {
         }
     }
 
+    #[inline]
     pub fn value(&self, t: f64) -> f64 {
         self.at_zero + self.rise * t
     }
 
     /// The part between two places; where it is cut, it goes on beyond.
+    #[inline]
     fn part(&self, from: f64, to: f64) -> Self {
         Self {
             from,
@@ -54,6 +56,7 @@ impl Piece {
         }
     }
 
+    #[inline]
     fn lowest(&self) -> f64 {
         self.value(self.from).min(self.value(self.to))
     }
@@ -361,6 +364,7 @@ impl Horizon {
 }
 
 /// The slice in which places from `t` upwards lie.
+#[inline]
 fn slice_after(t: f64) -> usize {
     let slice = near(t);
     if t < bounds(slice).0 {
@@ -373,6 +377,7 @@ fn slice_after(t: f64) -> usize {
 }
 
 /// The slice in which places up to `t` lie.
+#[inline]
 fn slice_before(t: f64) -> usize {
     let slice = near(t);
     if t <= bounds(slice).0 && slice > 0 {
@@ -385,11 +390,13 @@ fn slice_before(t: f64) -> usize {
 }
 
 /// The slice of a place, give or take one.
+#[inline]
 fn near(t: f64) -> usize {
     (((t + 1.0) * DENSITY) as usize).min(SLICES - 1)
 }
 
 /// The places between which a slice lies; exact.
+#[inline]
 fn bounds(slice: usize) -> (f64, f64) {
     let at = |slice: usize| slice as f64 / DENSITY - 1.0;
     (at(slice), at(slice + 1))

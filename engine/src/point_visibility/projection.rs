@@ -14,6 +14,7 @@ pub struct Side(pub usize);
 
 impl Side {
     /// Depth `w` along the side's direction and offset `u` to its left.
+    #[inline]
     pub fn frame(self, point: DVec2) -> (f64, f64) {
         match self.0 {
             0 => (point.x, point.y),
@@ -24,12 +25,14 @@ impl Side {
     }
 
     /// Place `u / w` of a point, from -1 to 1.
+    #[inline]
     pub fn place(self, point: DVec2) -> f64 {
         let (w, u) = self.frame(point);
         u / w
     }
 
     /// The side of a point from which one turns anticlockwise, so that its place is below 1.
+    #[inline]
     pub fn leaving(point: DVec2) -> Self {
         let DVec2 { x, y } = point;
         if x > 0.0 && -x <= y && y < x {
@@ -44,6 +47,7 @@ impl Side {
     }
 
     /// The side of a point to which one turns anticlockwise, so that its place is above -1.
+    #[inline]
     pub fn reaching(point: DVec2) -> Self {
         let DVec2 { x, y } = point;
         if x > 0.0 && -x < y && y <= x {
@@ -69,11 +73,13 @@ pub struct Span {
 }
 
 impl Span {
+    #[inline]
     pub fn value(&self, t: f64) -> f64 {
         self.at_zero + self.rise * t
     }
 
     /// The same line times a factor.
+    #[inline]
     pub fn scaled(self, factor: f64) -> Self {
         Self {
             at_zero: self.at_zero * factor,
@@ -105,6 +111,7 @@ pub struct Edge {
 }
 
 impl Edge {
+    #[inline]
     pub fn new(from: DVec2, to: DVec2) -> Self {
         let along = to - from;
         Self {
@@ -115,6 +122,7 @@ impl Edge {
         }
     }
 
+    #[inline]
     pub fn facing(&self) -> Facing {
         let reach = chebyshev(self.from).max(chebyshev(self.to)) * chebyshev(self.along);
         if self.area > EDGE_ON * reach {
@@ -128,6 +136,7 @@ impl Edge {
 
     /// The inverse depth `1 / w` along the edge, side by side and anticlockwise, for an edge that is
     /// not seen edge on. The flags say whether a span begins and ends where the edge does.
+    #[inline]
     pub fn spans(&self) -> impl Iterator<Item = (Span, bool, bool)> {
         // The line through the edge is where `normal · p = 1`.
         let normal = DVec2::new(self.along.y, -self.along.x) / self.area;
@@ -162,6 +171,7 @@ impl Edge {
 }
 
 /// Distance in plan by the greater of both offsets, which is the depth on the side of the point.
+#[inline]
 pub fn chebyshev(point: DVec2) -> f64 {
     point.x.abs().max(point.y.abs())
 }

@@ -15,6 +15,9 @@ use super::target::outline_slopes;
 use super::tile::{Tile, TileFeature, positions};
 use crate::{Box3d, in_range};
 
+/// Squared distances below this share of the squared range are in range whatever the roundings.
+const PLAINLY_IN_RANGE: f64 = 0.999;
+
 /// Where tiles come from: all their boxes are known, and what is in one only where it is asked for.
 pub trait TileSource {
     /// Why a tile could not be had.
@@ -66,6 +69,8 @@ pub struct PointSolver {
     pending: BinaryHeap<Pending>,
     walls: Vec<Wall>,
     finder: WallFinder,
+    /// Corners of the prism in hand, relative to the eye.
+    outline: Vec<DVec2>,
 }
 
 impl Default for PointSolver {
@@ -76,6 +81,7 @@ impl Default for PointSolver {
             pending: BinaryHeap::new(),
             walls: Vec::new(),
             finder: WallFinder::default(),
+            outline: Vec::new(),
         }
     }
 }
@@ -97,24 +103,26 @@ impl PointSolver {
         }
         while let Some(visit) = self.open.pop() {
             self.pass(visit.depth);
-            if self.hides_box(query.eye, &visit.bounds) {
-                continue;
-            }
-            let tile = source.tile(visit.tile)?;
-            let Some(node) = tile.tree.nodes.get(visit.node.unwrap_or(0) as usize) else {
+            let Some(at) = visit.node else {
+                if !self.hides_box(query.eye, &source.bounds()[visit.tile]) {
+                    let root = source.tile(visit.tile)?.tree.nodes.first().copied();
+                    if let Some(root) = root {
+                        self.open(query, visit.tile, Some(0), &root.bounds);
+                    }
+                }
                 continue;
             };
-            // The root is entered through its tile, whose box may be larger.
-            if visit.node.is_none() && node.count == 0 {
-                self.open(query, visit.tile, Some(0), &node.bounds);
+            let tile = source.tile(visit.tile)?;
+            let node = &tile.tree.nodes[at as usize];
+            if self.hides_box(query.eye, &node.bounds) {
                 continue;
+            }
+            if node.count == 0 {
+                self.meet(query, visit.tile, tile, node.first as usize, visible);
             }
             for child in node.first..node.first + node.count {
                 let bounds = &tile.tree.nodes[child as usize].bounds;
                 self.open(query, visit.tile, Some(child), bounds);
-            }
-            if node.count == 0 {
-                self.meet(query, visit.tile, tile, node.first as usize, visible);
             }
         }
         Ok(())
@@ -129,12 +137,11 @@ impl PointSolver {
 
     /// Puts a box that is in range among those to visit.
     fn open(&mut self, query: &PointQuery, tile: usize, node: Option<u32>, bounds: &Box3d) {
-        if in_range(query.eye, query.range, bounds) {
+        if is_in_range(query, bounds) {
             self.open.push(Visit {
                 depth: depth(query.eye, bounds),
                 tile,
                 node,
-                bounds: *bounds,
             });
         }
     }
@@ -163,9 +170,11 @@ impl PointSolver {
         let outline = &tile.corners[positions(&feature.outline)];
         if query.prisms && !outline.is_empty() {
             let eye = query.eye.truncate();
-            let corners = outline.iter().map(|&corner| corner - eye);
+            self.outline.clear();
+            self.outline
+                .extend(outline.iter().map(|&corner| corner - eye));
             let is_beside = depth(query.eye, &feature.envelope) > EYE_MARGIN;
-            if is_beside && self.hides(corners, feature.envelope.max.z - query.eye.z) {
+            if is_beside && self.hides(&self.outline, feature.envelope.max.z - query.eye.z) {
                 return;
             }
         }
@@ -198,15 +207,26 @@ impl PointSolver {
             DVec2::new(max.x, max.y),
             DVec2::new(min.x, max.y),
         ];
-        self.hides(corners.into_iter(), max.z)
+        self.hides(&corners, max.z)
     }
 
-    fn hides(&self, corners: impl ExactSizeIterator<Item = DVec2> + Clone, top: f64) -> bool {
+    fn hides(&self, corners: &[DVec2], top: f64) -> bool {
         outline_slopes(corners, top, |line| match self.horizon.hides(line) {
             true => ControlFlow::Continue(()),
             false => ControlFlow::Break(()),
         })
         .is_continue()
+    }
+}
+
+/// As [`in_range`], with no root where the answer is plain.
+fn is_in_range(query: &PointQuery, bounds: &Box3d) -> bool {
+    let nearest = query.eye.clamp(bounds.min, bounds.max) - query.eye;
+    let share = nearest.length_squared() / (query.range * query.range);
+    if share < PLAINLY_IN_RANGE {
+        true
+    } else {
+        in_range(query.eye, query.range, bounds)
     }
 }
 
@@ -223,7 +243,6 @@ struct Visit {
     tile: usize,
     /// None for the tile itself.
     node: Option<u32>,
-    bounds: Box3d,
 }
 
 /// A wall that is not part of the horizon yet.

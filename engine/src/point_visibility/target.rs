@@ -14,7 +14,7 @@ use super::projection::{Edge, Facing, Side, Span};
 /// A top above the eye is highest where it is nearest; one below, where it is farthest. Breaks at
 /// once where no bound is known.
 pub fn outline_slopes(
-    corners: impl ExactSizeIterator<Item = DVec2> + Clone,
+    corners: &[DVec2],
     top: f64,
     mut visit: impl FnMut(&Span) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
@@ -29,9 +29,10 @@ pub fn outline_slopes(
     } else {
         Facing::Left
     };
-    let next = corners.clone().cycle().skip(1);
-    for (from, to) in corners.zip(next) {
+    let mut from = corners[corners.len() - 1];
+    for &to in corners {
         let edge = Edge::new(from, to);
+        from = to;
         match edge.facing() {
             Facing::EdgeOn => visit(&level(&edge, top, is_above)?)?,
             facing if facing == deciding => {

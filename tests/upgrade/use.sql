@@ -37,6 +37,7 @@ SELECT occlusion.drop_scene(scene) FROM unnest('{town,square,hamlet,village}'::t
 SELECT pg_temp.require(NOT EXISTS (SELECT FROM pg_namespace WHERE nspname IN ('town', 'square', 'hamlet', 'village')), 'the scenes are gone');
 DROP VIEW seen;
 DROP TABLE place, boxes;
+DROP EXTENSION IF EXISTS pg_occlusion_postgis;
 DROP EXTENSION pg_occlusion;
 SELECT pg_temp.require(NOT EXISTS (SELECT FROM pg_proc AS p JOIN pg_namespace AS n ON n.oid = p.pronamespace WHERE n.nspname = 'occlusion'),
                        'nothing of the extension is left');

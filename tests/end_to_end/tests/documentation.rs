@@ -7,12 +7,25 @@
 //! - `sql error 42809` says that the block's last statement fails with that SQLSTATE.
 //!
 //! A statement ends with a line that ends with `;`, outside `$$`.
+//!
+//! Each query that asks an indexed column of boxes is planned as well, under the server's own
+//! settings: on a table that is worth an index it must be answered by one.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use end_to_end::TestDatabase;
 use postgres::{Client, SimpleQueryMessage};
+use serde_json::Value;
+
+/// Operators of the extension that an index of boxes answers in a condition.
+const INDEXABLE: [&str; 3] = ["&&", "@>", "<@"];
+
+/// A table of fewer pages than this is read as fast without an index.
+const SMALL_TABLE: i64 = 8;
+
+/// A condition that keeps more than this share of the rows is not worth an index.
+const SELECTIVE: f64 = 0.1;
 
 /// One block of SQL.
 struct Block {
@@ -34,7 +47,7 @@ struct Fence {
 #[test]
 fn every_statement_of_the_documentation_runs() {
     let mut faults = Vec::new();
-    let mut statements = 0;
+    let (mut statements, mut indexed) = (0, 0);
     for page in pages() {
         let text = fs::read_to_string(&page).expect("the page is text");
         let blocks = blocks(&text);
@@ -46,12 +59,14 @@ fn every_statement_of_the_documentation_runs() {
         let name = name.to_string_lossy();
         let mut database = TestDatabase::new(&name);
         for block in &blocks {
-            if let Err(fault) = run(&mut database.client, block) {
-                faults.push(format!("{name}, line {}: {fault}", block.line));
+            match run(&mut database.client, block) {
+                Ok(scans) => indexed += scans,
+                Err(fault) => faults.push(format!("{name}, line {}: {fault}", block.line)),
             }
         }
     }
     assert!(statements > 20, "only {statements} statements were found");
+    assert!(indexed > 4, "only {indexed} scans of an index were planned");
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
@@ -167,19 +182,22 @@ fn rows(lines: &[String]) -> Vec<Vec<String>> {
         .collect()
 }
 
-/// Runs a block, and says what is not as it claims.
-fn run(client: &mut Client, block: &Block) -> Result<(), String> {
+/// Runs a block, and says what is not as it claims; returns how many scans of an index its queries
+/// are planned with.
+fn run(client: &mut Client, block: &Block) -> Result<usize, String> {
     let Some((last, before)) = block.statements.split_last() else {
         return Err("no statement".to_owned());
     };
+    let mut scans = 0;
     for statement in before {
         client
             .simple_query(statement)
             .map_err(|error| format!("{statement}{error:?}"))?;
+        scans += plan(client, statement)?;
     }
     match (client.simple_query(last), &block.error) {
         (Err(error), Some(state)) if error.code().is_some_and(|code| code.code() == state) => {
-            Ok(())
+            Ok(scans)
         }
         (Err(error), _) => Err(format!("{last}{error:?}")),
         (Ok(_), Some(state)) => Err(format!("{last}does not fail with {state}")),
@@ -187,9 +205,68 @@ fn run(client: &mut Client, block: &Block) -> Result<(), String> {
             Some(expected) if *expected != returned(&answer) => {
                 Err(format!("{last}returns {:?}", returned(&answer)))
             }
-            _ => Ok(()),
+            _ => Ok(scans + plan(client, last)?),
         },
     }
+}
+
+/// Plans a statement if it is a query that an index might answer; returns how many scans of an index
+/// of boxes there are, or which table it reads though its index would answer.
+fn plan(client: &mut Client, statement: &str) -> Result<usize, String> {
+    let is_code = |line: &&str| !line.trim_start().starts_with("--");
+    let code: Vec<&str> = statement.lines().filter(is_code).collect();
+    let code = code.join("\n");
+    let code = code.trim_start();
+    let query = code.strip_prefix("EXPLAIN (COSTS OFF) ").unwrap_or(code);
+    let asks = query.starts_with("SELECT") || query.starts_with("WITH");
+    let mut operators = INDEXABLE.iter().chain(&["<->"]);
+    if !asks || !operators.any(|operator| query.contains(operator)) {
+        return Ok(0);
+    }
+    let explain = format!("ANALYZE; EXPLAIN (FORMAT JSON, VERBOSE) {query}");
+    let answer = client
+        .simple_query(&explain)
+        .map_err(|error| format!("{explain}{error:?}"))?;
+    let text = returned(&answer).swap_remove(1).swap_remove(0);
+    let plan: Value = serde_json::from_str(&text).expect("a plan is JSON");
+    count_scans(client, &plan[0]["Plan"]).map_err(|why| format!("{query}{why}"))
+}
+
+/// Walks a plan.
+fn count_scans(client: &mut Client, node: &Value) -> Result<usize, String> {
+    let text = |key: &str| node[key].as_str().unwrap_or_default();
+    let mut scans = 0;
+    match text("Node Type") {
+        "Index Scan" | "Index Only Scan" | "Bitmap Index Scan" => {
+            let is_ours = INDEXABLE.iter().any(|o| text("Index Cond").contains(o))
+                || text("Order By").contains("<->");
+            scans += usize::from(is_ours);
+        }
+        "Seq Scan" if INDEXABLE.iter().any(|o| text("Filter").contains(o)) => {
+            let table = format!("{}.{}", text("Schema"), text("Relation Name"));
+            let row = client
+                .query_one(
+                    "SELECT c.relpages::bigint, c.reltuples::float8, EXISTS (
+                         SELECT FROM pg_index AS i JOIN pg_opclass AS o ON o.oid = ANY (i.indclass)
+                         WHERE i.indrelid = c.oid AND o.opcintype = 'occlusion.box3d'::regtype)
+                     FROM pg_class AS c WHERE c.oid = $1::text::regclass",
+                    &[&table],
+                )
+                .map_err(|error| format!("{table}: {error}"))?;
+            let (pages, tuples, has_index): (i64, f64, bool) = (row.get(0), row.get(1), row.get(2));
+            let kept = node["Plan Rows"].as_f64().unwrap_or(0.0);
+            if has_index && pages >= SMALL_TABLE && kept < SELECTIVE * tuples {
+                return Err(format!(
+                    "reads all {pages} pages of {table} for about {kept} of {tuples} rows"
+                ));
+            }
+        }
+        _ => {}
+    }
+    for child in node["Plans"].as_array().into_iter().flatten() {
+        scans += count_scans(client, child)?;
+    }
+    Ok(scans)
 }
 
 /// The cells of an answer, the column names first.

@@ -5,6 +5,7 @@
 
 mod box3d;
 mod box_relation;
+mod box_split;
 mod city;
 mod columns;
 mod convex_pieces;
@@ -26,6 +27,7 @@ mod view_region;
 mod volumes;
 
 pub use box_relation::{BoxRange, BoxRelation};
+pub use box_split::{BoxCell, BoxSplit};
 pub use box3d::Box3d;
 pub use city::{BoxCity, City, CityFeature, CityLayout, generated_city, scattered_city};
 pub use columns::{ColumnOptions, SolidColumns, solid_columns};

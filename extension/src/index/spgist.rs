@@ -1,5 +1,5 @@
-//! SP-GiST for `box3d`: a box is a point of six dimensions, and an inner node splits space in 64 at
-//! the medians of the six (as core does for plane boxes, in four).
+//! SP-GiST for `box3d`: an inner node holds a [`BoxSplit`], and a scan knows the [`BoxCell`] of the
+//! boxes below it.
 
 use super::query::{Nearest, Query};
 use super::spgist_sys::{
@@ -9,19 +9,10 @@ use super::spgist_sys::{
 };
 use crate::direct_call::direct_function;
 use crate::types::{Box3d, Raw, read};
-use engine::BoxRange;
+use engine::{BoxCell, BoxSplit};
 use glam::DVec3;
 use pgrx::{IntoDatum, pg_sys};
 use std::ffi::c_int;
-
-/// Children of a node: each of the six numbers is above the median or not.
-const CHILDREN: usize = 64;
-
-/// Boxes that are all there can be.
-const EVERYWHERE: engine::Box3d = engine::Box3d {
-    min: DVec3::NEG_INFINITY,
-    max: DVec3::INFINITY,
-};
 
 direct_function! {
     /// What nodes and leaves hold.
@@ -48,14 +39,14 @@ direct_function! {
             choice.match_node.node = if given.all_the_same {
                 0
             } else {
-                number(child(&read(given.prefix), &read(given.leaf)))
+                number(stored(given.prefix).part_of(&read(given.leaf)))
             };
         }
     }
 }
 
 direct_function! {
-    /// Splits the boxes of a full page at the medians of their numbers.
+    /// Splits the boxes of a full page.
     fn box3d_spgist_picksplit(given: Raw<SpgPickSplitIn>, split: Raw<SpgPickSplitOut>) {
         // SAFETY: SP-GiST passes boxes and a place for the answer; what is allocated lives in its
         // memory context.
@@ -64,12 +55,12 @@ direct_function! {
             let count = usize::try_from(given.count).unwrap_or(0);
             let datums = std::slice::from_raw_parts(given.datums, count);
             let boxes: Vec<engine::Box3d> = datums.iter().map(|&datum| read(datum)).collect();
-            let medians = medians(&boxes);
+            let parts = BoxSplit::of(&boxes);
             split.has_prefix = true;
-            split.prefix = Box3d(medians).into_datum().unwrap_or(pg_sys::Datum::null());
-            split.node_count = number(CHILDREN);
+            split.prefix = prefix(&parts);
+            split.node_count = number(BoxSplit::PARTS);
             split.node_labels = std::ptr::null_mut();
-            split.nodes = array(boxes.iter().map(|key| number(child(&medians, key))));
+            split.nodes = array(boxes.iter().map(|key| number(parts.part_of(key))));
             split.leaves = array(datums.iter().copied());
         }
     }
@@ -82,40 +73,40 @@ direct_function! {
         given: Raw<SpgInnerConsistentIn>,
         visit: Raw<SpgInnerConsistentOut>,
     ) {
-        // SAFETY: SP-GiST passes a node of ours, the range of its boxes that we gave it, or null at the
+        // SAFETY: SP-GiST passes a node of ours, the cell of its boxes that we gave it, or null at the
         // root, keys of our operator class, and a place for the answer.
         unsafe {
             let (given, visit) = (&*given.as_ptr(), &mut *visit.as_ptr());
-            let range = given.range.cast::<BoxRange>().as_ref().copied();
-            let range = range.unwrap_or(BoxRange::inside(&EVERYWHERE));
+            let cell = given.cell.cast::<BoxCell>().as_ref().copied();
+            let cell = cell.unwrap_or(BoxCell::EVERYTHING);
             let queries = queries(given.keys, given.key_count);
             let nearest = nearest(given.orders, given.order_count);
-            let ranges = (0..usize::try_from(given.node_count).unwrap_or(0)).map(|node| {
-                let whole = given.all_the_same;
-                let range = if whole {
-                    range
-                } else {
-                    part(&range, &read(given.prefix), node)
+            // Where all children are the same, boxes are in any of them, and the prefix says nothing.
+            let split = (!given.all_the_same).then(|| stored(given.prefix));
+            let parts = (0..usize::try_from(given.node_count).unwrap_or(0)).filter_map(|node| {
+                let part = match split {
+                    Some(split) => split.part(&cell, node)?,
+                    None => cell,
                 };
-                (node, range)
+                Some((node, part))
             });
-            let chosen: Vec<(usize, BoxRange)> = ranges
-                .filter(|(_, range)| queries.iter().all(|query| query.possible(call, range)))
+            let chosen: Vec<(usize, BoxCell)> = parts
+                .filter(|(_, part)| queries.iter().all(|query| query.possible(call, &part.range)))
                 .collect();
-            let distances = |range: &BoxRange| {
-                let bounds = range.bounds();
+            let distances = |part: &BoxCell| {
+                let bounds = part.range.bounds();
                 array(nearest.iter().map(|nearest| nearest.distance(&bounds)))
             };
-            let remember = |range: &BoxRange| {
-                let room = pg_sys::MemoryContextAlloc(given.range_context, size_of::<BoxRange>());
-                room.cast::<BoxRange>().write(*range);
+            let remember = |part: &BoxCell| {
+                let room = pg_sys::MemoryContextAlloc(given.cell_context, size_of::<BoxCell>());
+                room.cast::<BoxCell>().write(*part);
                 room
             };
             visit.node_count = number(chosen.len());
             visit.nodes = array(chosen.iter().map(|(node, _)| number(*node)));
-            visit.ranges = array(chosen.iter().map(|(_, range)| remember(range)));
+            visit.cells = array(chosen.iter().map(|(_, part)| remember(part)));
             if !nearest.is_empty() {
-                visit.distances = array(chosen.iter().map(|(_, range)| distances(range)));
+                visit.distances = array(chosen.iter().map(|(_, part)| distances(part)));
             }
         }
     }
@@ -146,42 +137,24 @@ direct_function! {
     }
 }
 
-/// The child of a node with these medians that a box belongs to.
-fn child(medians: &engine::Box3d, key: &engine::Box3d) -> usize {
-    let least = key.min.cmpgt(medians.min).bitmask();
-    let greatest = key.max.cmpgt(medians.max).bitmask();
-    (least | greatest << 3) as usize
+/// A split as the prefix of a node. A `box3d` is six numbers, and so is a split.
+fn prefix(split: &BoxSplit) -> pg_sys::Datum {
+    let [a, b, c, d, e, f] = split.to_numbers();
+    let numbers = Box3d(engine::Box3d {
+        min: DVec3::new(a, b, c),
+        max: DVec3::new(d, e, f),
+    });
+    numbers.into_datum().unwrap_or(pg_sys::Datum::null())
 }
 
-/// The part of a range that belongs to a child.
-fn part(range: &BoxRange, medians: &engine::Box3d, child: usize) -> BoxRange {
-    let mut part = *range;
-    for axis in 0..3 {
-        for (bounds, median, bit) in [
-            (&mut part.least, medians.min[axis], axis),
-            (&mut part.greatest, medians.max[axis], axis + 3),
-        ] {
-            if child >> bit & 1 == 1 {
-                bounds.min[axis] = bounds.min[axis].max(median);
-            } else {
-                bounds.max[axis] = bounds.max[axis].min(median);
-            }
-        }
-    }
-    part
-}
-
-/// The median of each of the six numbers.
-fn medians(boxes: &[engine::Box3d]) -> engine::Box3d {
-    let median = |number: &dyn Fn(&engine::Box3d) -> f64| {
-        let mut numbers: Vec<f64> = boxes.iter().map(number).collect();
-        let middle = numbers.len() / 2;
-        *numbers.select_nth_unstable_by(middle, f64::total_cmp).1
-    };
-    engine::Box3d {
-        min: DVec3::from([0, 1, 2].map(|axis| median(&|key| key.min[axis]))),
-        max: DVec3::from([0, 1, 2].map(|axis| median(&|key| key.max[axis]))),
-    }
+/// The split of a node.
+///
+/// # Safety
+/// It must be a prefix that [`prefix`] made.
+unsafe fn stored(prefix: pg_sys::Datum) -> BoxSplit {
+    // SAFETY: as the caller says.
+    let engine::Box3d { min, max } = unsafe { read(prefix) };
+    BoxSplit::from_numbers([min.x, min.y, min.z, max.x, max.y, max.z])
 }
 
 /// What the keys of a scan look for.

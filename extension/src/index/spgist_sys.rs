@@ -64,7 +64,7 @@ pub struct SpgPickSplitOut {
     pub leaves: *mut Datum,
 }
 
-/// `spgInnerConsistentIn`; the traversal value is the range of the boxes below.
+/// `spgInnerConsistentIn`; the traversal value is the cell of the boxes below.
 #[repr(C)]
 pub struct SpgInnerConsistentIn {
     pub keys: *mut ScanKeyData,
@@ -72,8 +72,8 @@ pub struct SpgInnerConsistentIn {
     pub key_count: c_int,
     pub order_count: c_int,
     pub reconstructed: Datum,
-    pub range: *mut c_void,
-    pub range_context: MemoryContext,
+    pub cell: *mut c_void,
+    pub cell_context: MemoryContext,
     pub level: c_int,
     pub return_data: bool,
     pub all_the_same: bool,
@@ -90,7 +90,7 @@ pub struct SpgInnerConsistentOut {
     pub nodes: *mut c_int,
     pub level_adds: *mut c_int,
     pub reconstructed: *mut Datum,
-    pub ranges: *mut *mut c_void,
+    pub cells: *mut *mut c_void,
     pub distances: *mut *mut f64,
 }
 
@@ -102,7 +102,7 @@ pub struct SpgLeafConsistentIn {
     pub key_count: c_int,
     pub order_count: c_int,
     pub reconstructed: Datum,
-    pub range: *mut c_void,
+    pub cell: *mut c_void,
     pub level: c_int,
     pub return_data: bool,
     pub leaf: Datum,

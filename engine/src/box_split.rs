@@ -407,6 +407,25 @@ mod tests {
         }
     }
 
+    proptest! {
+        #[test]
+        fn one_corner_and_the_size_tell_where_the_other_is(boxes in boxes()) {
+            for key in &boxes {
+                let everywhere = BoxCell::EVERYTHING.range.least;
+                let [least, greatest] = [key.min, key.max].map(|p| Box3d { min: p, max: p });
+                for (least, greatest) in [(least, everywhere), (everywhere, greatest)] {
+                    let range = BoxRange { least, greatest };
+                    let cell = BoxCell { range, largest: key.size() }.tightened().unwrap();
+                    prop_assert!(holds(&cell, key), "{cell:?} of {key:?}");
+                    // And not much more room than there must be, where that can be told.
+                    let room = cell.range.bounds().size() - key.size();
+                    let rounded = key.corners()[7].abs().max_element().max(1.0) * 1e-12;
+                    prop_assert!(room.max_element() < rounded || key.min.min_element() < -1e9 || rounded > 1.0);
+                }
+            }
+        }
+    }
+
     #[test]
     fn boxes_that_are_all_the_same_are_one_part() {
         let key = city(2)[3];

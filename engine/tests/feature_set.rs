@@ -148,6 +148,15 @@ proptest! {
 }
 
 #[test]
+fn an_endless_run_is_malformed_and_not_walked() {
+    let endless = [1, 2, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0x7f];
+    assert!(FeatureSet::read(&endless).is_err());
+    let set = FeatureSet::trusted(&endless);
+    assert_eq!(set.numbers().count(), 0);
+    assert!(!set.contains_number(1 << 40));
+}
+
+#[test]
 fn forms_are_as_documented() {
     let cases: [(&[i64], &[u8]); 9] = [
         (&[], &[0]),

@@ -1,6 +1,10 @@
 //! [`Words`], the words of an encoded set as they are read.
 
+use super::MOST_IN_SET;
 use super::word::{FULL, LISTED, MORE, NUMBER, OCTETS, RUN, Run, Word};
+
+/// More full words than a set can hold.
+const MOST_FULL: u64 = MOST_IN_SET / 64;
 
 /// Reads the words of a set in ascending order, allocating nothing. What is malformed ends it early.
 #[derive(Clone)]
@@ -40,7 +44,8 @@ impl<'a> Words<'a> {
             LISTED => self.listed(),
             OCTETS => self.octets(),
             FULL => {
-                self.full = varint(&mut self.left)?;
+                // More than any set holds is malformed, and would take ages to walk.
+                self.full = varint(&mut self.left).filter(|&words| words <= MOST_FULL)?;
                 Some(u64::MAX)
             }
             _ => {

@@ -104,6 +104,71 @@ fn a_sight_line_that_grazes_two_houses_is_free() {
     assert_eq!(seen(&houses, &query(-0.5, 0.0, 1.75)), [1, 2]);
 }
 
+/// From the eye, the corner of the first house and that of the sign are on one diagonal: where the
+/// sides of the square meet that the plan is seen through.
+#[test]
+fn past_a_corner_on_the_diagonal_one_sees_over_a_lower_house() {
+    let features = [
+        house(1, [18.0, 6.0], [25.0, 11.0], 4.0),
+        house(2, [19.0, 15.0], [23.0, 18.0], 2.0),
+        thing(3, [13.0, 11.0], [20.0, 16.0], [0.0, 5.0]),
+    ];
+    assert_eq!(seen(&features, &query(28.0, 8.0, 0.5)), [1, 2, 3]);
+    assert_eq!(seen(&features, &query(28.0, 8.001, 0.5)), [1, 2, 3]);
+    assert_eq!(seen(&features, &query(28.0, 7.999, 0.5)), [1, 2]);
+}
+
+/// The corners of both houses and the sign are on one sight line but for roundings of places.
+#[test]
+fn a_gap_as_wide_as_a_rounding_is_a_gap() {
+    let corners = |corners: &[[f64; 2]]| -> Vec<(f64, f64)> {
+        corners.iter().map(|&[x, y]| (x, y)).collect()
+    };
+    let left = corners(&[
+        [7.98768496205144, 6.043158223221848],
+        [8.06392347099652, 6.826503513353475],
+        [4.452151056118704, 10.992905691527682],
+        [4.240019021762739, 9.366560094798622],
+    ]);
+    let right = corners(&[
+        [8.961425662559096, -0.05416888813596987],
+        [10.587771259288155, 0.15796314621999397],
+        [6.586132073918331, 3.934498553902192],
+        [5.638023790982324, 3.693497052152732],
+    ]);
+    let around = |id: i64, places: &[(f64, f64)], top: f64| {
+        let ends = places
+            .iter()
+            .flat_map(|&(x, y)| [DVec3::new(x, y, 0.0), DVec3::new(x, y, top)]);
+        TileFeature {
+            id,
+            envelope: Box3d::around(ends).unwrap(),
+            outline: Vec::new(),
+            columns: Vec::new(),
+        }
+    };
+    let house = |id: i64, places: Vec<(f64, f64)>| TileFeature {
+        columns: vec![SolidColumn {
+            footprint: Polygon::new(LineString::from(places.clone()), Vec::new()),
+            bottom: 0.0,
+            top: 7.0,
+            grounded: true,
+        }],
+        ..around(id, &places, 7.0)
+    };
+    let sign = [
+        (17.267484981654146, 14.615851462638007),
+        (18.681698546027242, 15.322958243824555),
+    ];
+    let features = [house(1, left), house(2, right), around(3, &sign, 3.5)];
+    let query = PointQuery {
+        eye: DVec3::new(2.4141800425032693, 0.46965330367367875, 0.82),
+        range: f64::INFINITY,
+        prisms: false,
+    };
+    assert_eq!(seen(&features, &query), [1, 2, 3]);
+}
+
 #[test]
 fn a_sign_on_a_wall_is_seen_from_its_side_only() {
     let houses = [

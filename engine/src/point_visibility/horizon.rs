@@ -1,5 +1,6 @@
 //! [`Horizon`], the upper envelope of all that hides, by place around the eye.
 
+use super::PLACE_MARGIN;
 use super::projection::{SIDES, Side, Span};
 
 /// Slices of equal width on a side. A slice holds few pieces, and knows the lowest of them.
@@ -7,9 +8,6 @@ const SLICES: usize = 64;
 
 /// Slices per unit of place.
 const DENSITY: f64 = SLICES as f64 / 2.0;
-
-/// How much wider than computed a target is taken to be: a few roundings of a place.
-const PLACE_MARGIN: f64 = 4.0 * f64::EPSILON;
 
 /// A straight part of the horizon: all below it is hidden, by the occluder `tag`.
 #[derive(Clone, Copy, Debug, PartialEq)]

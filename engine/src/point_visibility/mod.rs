@@ -28,3 +28,7 @@ const SLOPE_MARGIN: f64 = 1e-8;
 /// Sine of the angle between a wall and the sight line below which it is seen edge on: it hides
 /// next to nothing then, and its slope could not be told from the roundings.
 const EDGE_ON: f64 = 1e-6;
+
+/// A few roundings of a place: targets are taken to be wider than computed by as much, and what hides
+/// to be narrower.
+const PLACE_MARGIN: f64 = 4.0 * f64::EPSILON;

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::horizon::Piece;
 use super::projection::{Edge, Facing, Side, Span};
 use super::tile::{Column, Feature, Tile, positions};
-use super::{EYE_MARGIN, SLOPE_MARGIN};
+use super::{EYE_MARGIN, PLACE_MARGIN, SLOPE_MARGIN};
 
 /// Walls that lead away from the eye are cut where their depth has grown by this factor: each part
 /// hides only what is beyond all of it.
@@ -80,31 +80,75 @@ impl WallFinder {
             if *facing != wanted || buried[at] {
                 continue;
             }
-            // A sight line through a corner of two walls that both face it meets the inside.
-            let goes_on = |other: usize| self.edges[other % count].1 == wanted;
-            let (before, after) = (goes_on(at + count - 1), goes_on(at + 1));
-            let (begins, ends) = match wanted {
-                Facing::Left => (!before, !after),
-                _ => (!after, !before),
+            let corner = |other: usize| {
+                let (edge, facing) = &self.edges[other % count];
+                match (*facing == wanted, buried[other % count]) {
+                    (true, false) => Corner::Drawn,
+                    (true, true) if edge.width() > 2.0 * PLACE_MARGIN => Corner::Buried,
+                    _ => Corner::End,
+                }
             };
-            for (span, starts, stops) in edge.spans() {
-                let piece = |part: &Span, first: bool, last: bool| {
-                    let slope = part.scaled(height);
-                    Piece::new(
-                        &slope,
-                        first && starts && begins,
-                        last && stops && ends,
-                        tag,
-                    )
-                };
-                parts(&span, |part, depth, first, last| {
+            let (before, after) = (corner(at + count - 1), corner(at + 1));
+            let (first, last) = match wanted {
+                Facing::Left => (before, after),
+                _ => (after, before),
+            };
+            let mut spans = edge.spans().peekable();
+            let mut begins_late = false;
+            while let Some((span, starts, stops)) = spans.next() {
+                // An end within the margin of a corner of the square is one beyond it too.
+                let starts = starts || begins_late;
+                begins_late = starts && 1.0 - span.from < PLACE_MARGIN;
+                let stops = stops
+                    || spans
+                        .peek()
+                        .is_some_and(|(next, _, stops)| *stops && next.to + 1.0 < PLACE_MARGIN);
+                parts(&span, |part, depth, is_first, is_last| {
+                    let begin = if is_first && starts {
+                        first
+                    } else {
+                        Corner::Drawn
+                    };
+                    let end = if is_last && stops {
+                        last
+                    } else {
+                        Corner::Drawn
+                    };
+                    let part = Span {
+                        from: (part.from - begin.reach()).max(-1.0),
+                        to: (part.to + end.reach()).min(1.0),
+                        ..part.scaled(height)
+                    };
                     found(Wall {
                         depth,
                         side: span.side,
-                        piece: piece(part, first, last),
+                        piece: Piece::new(&part, begin == Corner::End, end == Corner::End, tag),
                     });
                 });
             }
+        }
+    }
+}
+
+/// What is on the other side of a corner where a wall begins or ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Corner {
+    /// Nothing that faces as the wall does: what hides ends there.
+    End,
+    /// A wall that takes over at the very same place.
+    Drawn,
+    /// A wall that would, but is left out as it lies in another column.
+    Buried,
+}
+
+impl Corner {
+    /// How much a wall is made longer there: shorter by what roundings may have added to it, and
+    /// longer only where something is left out that is known to hide, so that no crack opens.
+    fn reach(self) -> f64 {
+        match self {
+            Self::End => -PLACE_MARGIN,
+            Self::Drawn => 0.0,
+            Self::Buried => PLACE_MARGIN,
         }
     }
 }

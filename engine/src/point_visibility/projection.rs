@@ -164,6 +164,11 @@ impl Edge {
         })
     }
 
+    /// How wide it is seen, in places, or less.
+    pub fn width(&self) -> f64 {
+        self.area.abs() / (chebyshev(self.from) * chebyshev(self.to))
+    }
+
     /// Where the edge begins and where it ends.
     pub fn ends(&self) -> [DVec2; 2] {
         [self.from, self.to]

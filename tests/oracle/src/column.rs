@@ -7,7 +7,7 @@ use crate::exact::Rational;
 use crate::footprint::{Footprint, ShapeFault, check_heights};
 use crate::interval::Interval;
 use crate::number::Number;
-use crate::plane::{Outline, Place, PlanPoint, any_piece, place, spot};
+use crate::plane::{Edge, Outline, Place, PlanPoint, any_piece, place, spot};
 
 /// A footprint, a polygon with holes, times a range of heights, claimed to be solid.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,15 +65,52 @@ impl Column {
         self.solid_bottom() < z && z < self.top && self.footprint.place([x, y]) == Place::Inside
     }
 
+    /// Whether the closed column, with its ground, has a point within `margin` of another; decided in
+    /// `f64` but for points inside, so to some roundings.
+    pub(crate) fn is_within(&self, [x, y, z]: Point, margin: f64) -> bool {
+        let above = (z - self.top).max(self.solid_bottom() - z).max(0.0);
+        if above > margin {
+            return false;
+        }
+        let in_plan = if self.footprint.place([x, y]) == Place::Outside {
+            let edges = self.footprint.edges.iter();
+            edges
+                .map(|edge| distance(*edge, [x, y]))
+                .fold(f64::INFINITY, f64::min)
+        } else {
+            0.0
+        };
+        in_plan.hypot(above) <= margin
+    }
+
     /// Whether the open segment from `p` to `q` meets the open column or its ground. Exact.
     #[must_use]
     pub fn meets_segment(&self, p: Point, q: Point) -> bool {
         if !is_finite(p) || !is_finite(q) || p == q || self.is_beside(p, q) {
             return false;
         }
+        self.any_part(p, q, |place| place == Place::Inside)
+    }
+
+    /// Whether a part of the segment from `p` to `q` that has some length lies in the closed column
+    /// or its ground, on the surface or inside. Exact.
+    #[must_use]
+    pub(crate) fn touches_along(&self, p: Point, q: Point) -> bool {
+        let bounds = self.solid_bounds();
+        let is_apart =
+            (0..3).any(|i| p[i].max(q[i]) < bounds.min[i] || p[i].min(q[i]) > bounds.max[i]);
+        is_finite(p)
+            && is_finite(q)
+            && p != q
+            && !is_apart
+            && self.any_part(p, q, |place| place != Place::Outside)
+    }
+
+    /// Whether a part of the segment that is between bottom and top is in a wanted place in plan.
+    fn any_part(&self, p: Point, q: Point, wanted: fn(Place) -> bool) -> bool {
         let outline = Outline::around(&[[p[0], p[1]], [q[0], q[1]]], &self.footprint.edges);
-        self.meets::<Interval>(&outline, p, q)
-            .or_else(|| self.meets::<Rational>(&outline, p, q))
+        self.meets::<Interval>(&outline, p, q, wanted)
+            .or_else(|| self.meets::<Rational>(&outline, p, q, wanted))
             // Rationals always decide.
             .unwrap_or(false)
     }
@@ -84,18 +121,22 @@ impl Column {
         (0..3).any(|i| p[i].max(q[i]) <= bounds.min[i] || p[i].min(q[i]) >= bounds.max[i])
     }
 
-    fn meets<N: Number>(&self, outline: &Outline, p: Point, q: Point) -> Option<bool> {
+    fn meets<N: Number>(
+        &self,
+        outline: &Outline,
+        p: Point,
+        q: Point,
+        wanted: fn(Place) -> bool,
+    ) -> Option<bool> {
         let (from, to) = ([p[0], p[1]], [q[0], q[1]]);
         let [enter, leave]: [N; 2] = self.heights(p[2], q[2]);
         if from == to {
-            return Some(place::<N>(&outline.right, &spot(from))? == Place::Inside);
+            return Some(wanted(place::<N>(&outline.right, &spot(from))?));
         }
         if enter.compare(&leave)? != Ordering::Less {
             return Some(false);
         }
-        any_piece(outline, [&spot(from), &spot(to)], [enter, leave], |place| {
-            place == Place::Inside
-        })
+        any_piece(outline, [&spot(from), &spot(to)], [enter, leave], wanted)
     }
 
     /// The parameters between which a segment from height `p` to height `q`, not both on one side,
@@ -119,6 +160,14 @@ impl Column {
             beyond(q).map_or(N::from_f64(1.0), at),
         ]
     }
+}
+
+/// How far a point is from an edge in plan.
+fn distance([u, v]: Edge, [x, y]: PlanPoint) -> f64 {
+    let (way, from) = ([v[0] - u[0], v[1] - u[1]], [x - u[0], y - u[1]]);
+    let along = (way[0] * from[0] + way[1] * from[1]) / (way[0] * way[0] + way[1] * way[1]);
+    let along = along.clamp(0.0, 1.0);
+    (from[0] - way[0] * along).hypot(from[1] - way[1] * along)
 }
 
 #[cfg(test)]
@@ -164,8 +213,9 @@ mod tests {
             prop_assume!(p != q && !column.is_beside(p, q));
             let ends = [p, q].map(|[x, y, _]| [x, y]);
             let outline = Outline::around(&ends, &column.footprint.edges);
-            if let Some(answer) = column.meets::<Interval>(&outline, p, q) {
-                prop_assert_eq!(Some(answer), column.meets::<Rational>(&outline, p, q));
+            let inside = |place| place == Place::Inside;
+            if let Some(answer) = column.meets::<Interval>(&outline, p, q, inside) {
+                prop_assert_eq!(Some(answer), column.meets::<Rational>(&outline, p, q, inside));
             }
         }
     }

@@ -1,0 +1,134 @@
+//! Attacks the point solver with random scenes: nothing that it leaves out may be seen.
+#![forbid(unsafe_code)]
+
+mod finding;
+mod kind;
+mod observer;
+mod plan;
+mod scene;
+mod tiling;
+mod trial;
+
+use std::process::ExitCode;
+use std::sync::Mutex;
+use std::time::Instant;
+
+use clap::Parser;
+use engine::PointSolver;
+use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
+use rayon::prelude::*;
+
+use finding::Finding;
+use trial::{Counts, QUERIES, Trial};
+
+/// Findings to print.
+const PRINTED: usize = 5;
+
+const EXAMPLES: &str = "Examples:
+  attack                                the 250,000 queries of the test suite
+  attack --queries 10000000 --seed 7    a long run over other scenes
+  attack --scene 1234                   one scene of seed 1 again";
+
+/// Asks the point solver what can be seen in random scenes, and judges exactly all that it leaves out
+///
+/// A query is an answer for one eye, range and kind of test. The exit status is 1 if something left
+/// out can be seen, or if too little was left out for the attack to mean anything.
+#[derive(Parser, Debug)]
+#[command(name = "attack", after_help = EXAMPLES)]
+struct Arguments {
+    /// How many queries to ask
+    #[arg(long, value_name = "N", default_value_t = 250_000)]
+    queries: u64,
+    /// Which scenes to make
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Only this scene
+    #[arg(long, value_name = "NUMBER")]
+    scene: Option<u64>,
+    /// Stop at the first false occlusion
+    #[arg(long)]
+    stop: bool,
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let began = Instant::now();
+    let (counts, findings) = run(&arguments);
+    for finding in findings.iter().take(PRINTED) {
+        println!("{finding}");
+    }
+    if findings.len() > PRINTED {
+        println!("and {} more", findings.len() - PRINTED);
+    }
+    report(&counts, began.elapsed().as_secs_f64());
+    // An answer of everything would withstand any attack.
+    let means_something = counts.left_out * 10 > counts.features;
+    if !means_something {
+        println!("less than a tenth was left out: the solver, or the scenes, hide too little");
+    }
+    if counts.false_occlusions == 0 && means_something {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
+}
+
+fn run(arguments: &Arguments) -> (Counts, Vec<Finding>) {
+    let scenes = match arguments.scene {
+        Some(scene) => scene..scene + 1,
+        None => 0..arguments.queries.div_ceil(QUERIES),
+    };
+    let total = Mutex::new((Counts::default(), Vec::new()));
+    let bar = ProgressBar::new(scenes.end - scenes.start).with_style(
+        ProgressStyle::with_template("{bar:40} {pos}/{len} scenes, {eta} left")
+            .unwrap_or_else(|_| ProgressStyle::default_bar()),
+    );
+    scenes.into_par_iter().progress_with(bar).for_each_init(
+        PointSolver::default,
+        |solver, number| {
+            if arguments.stop && !lock(&total).1.is_empty() {
+                return;
+            }
+            let mut trial = Trial::new(arguments.seed, number);
+            let wanted = arguments
+                .queries
+                .saturating_sub(number * QUERIES)
+                .min(QUERIES);
+            trial.run(
+                solver,
+                if arguments.scene.is_some() {
+                    QUERIES
+                } else {
+                    wanted
+                },
+            );
+            let mut total = lock(&total);
+            total.0 += trial.counts;
+            total.1.append(&mut trial.findings);
+        },
+    );
+    total
+        .into_inner()
+        .unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+fn report(counts: &Counts, seconds: f64) {
+    println!(
+        "{} queries about {} features in range: {} returned, {} left out",
+        counts.queries, counts.features, counts.returned, counts.left_out
+    );
+    println!(
+        "of {} returned features that were looked at, {} were seen; {} aims at what was left out",
+        counts.looked_at, counts.seen, counts.aims
+    );
+    println!(
+        "{} false occlusions, {seconds:.1} s",
+        counts.false_occlusions
+    );
+}

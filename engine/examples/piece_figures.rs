@@ -3,17 +3,19 @@
 //!
 //!     cargo run --release -p engine --example piece_figures -- FILE [PIECES [SHARE [WORTH]]]
 
+mod real_city;
+
 use std::collections::HashSet;
 use std::time::Instant;
 
 use engine::{
-    Box3d, ColumnOptions, ConvexPieceOptions, ConvexPrism, InnerEnvelope, LocalGround, Occluder,
-    Site, SolidColumn, Street, TriangleMesh, ViewRegionOptions, VolumeOptions, VolumeSolver,
-    convex_pieces, footprint, inner_envelope, open_space, solid_columns,
+    Box3d, ConvexPieceOptions, ConvexPrism, InnerEnvelope, LocalGround, Occluder, Site,
+    SolidColumn, Street, ViewRegionOptions, VolumeOptions, VolumeSolver, convex_pieces,
+    inner_envelope, open_space,
 };
-use formats::{Feature, ReadOptions, read_bytes};
-use geo::{Area, BoundingRect, Contains, Point};
+use formats::{ReadOptions, read_bytes};
 use glam::{DVec2, DVec3};
+use real_city::{House, columns, eyes};
 
 /// As in docs/benchmarks.md.
 const SMALLEST: f64 = 2.0;
@@ -40,11 +42,11 @@ fn main() {
     let bytes = std::fs::read(file).expect("a readable file");
     let scene = read_bytes(file, &bytes, &ReadOptions::default()).expect("a city model");
     let houses: Vec<House> = scene.features.iter().map(House::of).collect();
-    let envelopes: Vec<Box3d> = houses.iter().map(|house| house.envelope).collect();
+    let envelopes: Vec<Box3d> = houses.iter().map(|house| house.envelope()).collect();
     let ground = LocalGround::new(&envelopes);
     let sites: Vec<Site> = houses.iter().map(House::site).collect();
     let streets = open_space(&sites, &ViewRegionOptions::default());
-    let eyes = eyes(&streets);
+    let eyes = eyes(&streets, EYES);
     let volumes = VolumeOptions {
         smallest: SMALLEST,
         worth: number(3).unwrap_or(VolumeOptions::usual_worth(SMALLEST, &streets)),
@@ -55,7 +57,7 @@ fn main() {
         houses.len(),
         streets.len()
     );
-    let stands = |house: &House| ground.holds(&house.envelope, house.envelope.min.z);
+    let stands = |house: &House| ground.holds(&house.envelope(), house.envelope().min.z);
     let boxes = houses.iter().map(|house| {
         let inner = inner_envelope(&house.mesh).ok();
         let grounded = |inner: &InnerEnvelope| inner.grounded && stands(house);
@@ -96,54 +98,6 @@ fn main() {
     );
 }
 
-struct House {
-    envelope: Box3d,
-    mesh: TriangleMesh,
-}
-
-impl House {
-    fn of(feature: &Feature) -> Self {
-        let points = |geometry: &formats::Geometry| -> Vec<DVec3> {
-            let surfaces = geometry.surfaces();
-            let rings = surfaces.iter().flat_map(|surface| &surface.rings);
-            rings.flatten().map(|&point| DVec3::from(point)).collect()
-        };
-        let levels = feature.geometries.iter().map(|g| g.level_of_detail);
-        let best = levels.fold(0.0, f64::max);
-        let polygons = feature
-            .geometries
-            .iter()
-            .filter(|geometry| geometry.level_of_detail == best)
-            .flat_map(|geometry| geometry.surfaces().into_owned())
-            .map(|surface| -> Vec<Vec<DVec3>> {
-                let ring = |ring: Vec<[f64; 3]>| ring.into_iter().map(DVec3::from).collect();
-                surface.rings.into_iter().map(ring).collect()
-            });
-        Self {
-            envelope: Box3d::around(feature.geometries.iter().flat_map(points)).expect("a point"),
-            mesh: TriangleMesh::from_polygons(polygons),
-        }
-    }
-
-    fn site(&self) -> Site {
-        Site {
-            footprint: footprint(&self.mesh),
-            foot: self.envelope.min.z,
-        }
-    }
-}
-
-/// The solid columns of a house that stands on the ground or hangs over it.
-fn columns(house: &House, stands: bool) -> Vec<SolidColumn> {
-    let found = solid_columns(&house.mesh, &ColumnOptions::default());
-    let grounded = |column: SolidColumn| SolidColumn {
-        grounded: column.grounded && stands,
-        ..column
-    };
-    let columns = found.map_or(Vec::new(), |found| found.columns);
-    columns.into_iter().map(grounded).collect()
-}
-
 /// Numbers features in turn.
 fn occluders(prisms: impl IntoIterator<Item = Vec<ConvexPrism>>) -> Vec<Occluder> {
     let of = |(feature, prisms): (usize, Vec<ConvexPrism>)| {
@@ -153,34 +107,6 @@ fn occluders(prisms: impl IntoIterator<Item = Vec<ConvexPrism>>) -> Vec<Occluder
             .map(move |prism| Occluder { feature, prism })
     };
     prisms.into_iter().enumerate().flat_map(of).collect()
-}
-
-/// Places on the streets, from a fixed sequence.
-fn eyes(streets: &[Street]) -> Vec<DVec3> {
-    let total: f64 = streets
-        .iter()
-        .map(|street| street.area.unsigned_area())
-        .sum();
-    let unit = |i: usize, base: f64| (i as f64 * base).fract();
-    let mut eyes = Vec::new();
-    for i in 1.. {
-        let mut rest = unit(i, 0.754_877_666_246_693) * total;
-        let street = streets.iter().find(|street| {
-            rest -= street.area.unsigned_area();
-            rest < 0.0
-        });
-        let Some(street) = street else { continue };
-        let rect = street.area.bounding_rect().expect("an area");
-        let x = rect.min().x + unit(i, 0.569_840_290_998_053) * rect.width();
-        let y = rect.min().y + unit(i, 0.362_656_070_415_29) * rect.height();
-        if street.area.contains(&Point::new(x, y)) {
-            eyes.push(DVec3::new(x, y, (street.eye_low + street.eye_high) / 2.0));
-        }
-        if eyes.len() == EYES {
-            break;
-        }
-    }
-    eyes
 }
 
 fn report(

@@ -4,18 +4,19 @@
 //!     cargo run --release -p engine --example point_figures -- streets 100000 500
 //!     cargo run --release -p engine --example point_figures -- FILE 0 500 [HEIGHT]
 
+mod real_city;
+
 use std::collections::HashSet;
 use std::f64::consts::TAU;
 use std::time::Instant;
 
 use engine::{
-    Box3d, CityLayout, ColumnOptions, LocalGround, OuterPrism, PointQuery, PointSolver, Site,
-    SolidColumn, Street, Tile, TileFeature, TileSource, TriangleMesh, ViewRegionOptions, footprint,
-    generated_city, open_space, solid_columns,
+    Box3d, CityLayout, LocalGround, OuterPrism, PointQuery, PointSolver, Site, SolidColumn, Street,
+    Tile, TileFeature, TileSource, ViewRegionOptions, generated_city, open_space,
 };
 use formats::{ReadOptions, read_bytes};
-use geo::{Area, BoundingRect, Contains, Point};
 use glam::{DVec2, DVec3};
+use real_city::{House, columns};
 
 /// Observers that are timed, and how often the whole round is.
 const EYES: usize = 1000;
@@ -41,7 +42,7 @@ fn main() {
         file => read(file),
     };
     let range = number(2, 500.0);
-    let mut eyes = eyes(&streets);
+    let mut eyes = real_city::eyes(&streets, EYES);
     let height = number(3, 0.0);
     eyes.iter_mut().for_each(|eye| eye.z += height);
     let begun = Instant::now();
@@ -290,90 +291,19 @@ fn outline(points: impl Iterator<Item = DVec3>) -> Vec<DVec2> {
 fn read(file: &str) -> (Vec<TileFeature>, Vec<Street>) {
     let bytes = std::fs::read(file).expect("a readable file");
     let scene = read_bytes(file, &bytes, &ReadOptions::default()).expect("a city model");
-    let houses: Vec<(Box3d, TriangleMesh, Vec<DVec3>)> = scene.features.iter().map(house).collect();
-    let envelopes: Vec<Box3d> = houses.iter().map(|house| house.0).collect();
+    let houses: Vec<House> = scene.features.iter().map(House::of).collect();
+    let envelopes: Vec<Box3d> = houses.iter().map(|house| house.envelope()).collect();
     let ground = LocalGround::new(&envelopes);
-    let sites: Vec<Site> = houses
-        .iter()
-        .map(|(envelope, mesh, _)| Site {
-            footprint: footprint(mesh),
-            foot: envelope.min.z,
-        })
-        .collect();
-    let features = houses
-        .iter()
-        .zip(0..)
-        .map(|((envelope, mesh, points), id)| {
-            let stands = ground.holds(envelope, envelope.min.z);
-            let found = solid_columns(mesh, &ColumnOptions::default());
-            let columns = found.map_or(Vec::new(), |found| found.columns);
-            TileFeature {
-                id,
-                envelope: *envelope,
-                outline: outline(points.iter().copied()),
-                columns: columns
-                    .into_iter()
-                    .map(|column| SolidColumn {
-                        grounded: column.grounded && stands,
-                        ..column
-                    })
-                    .collect(),
-            }
-        })
-        .collect();
-    (features, open_space(&sites, &ViewRegionOptions::default()))
-}
-
-fn house(feature: &formats::Feature) -> (Box3d, TriangleMesh, Vec<DVec3>) {
-    let points = |geometry: &formats::Geometry| -> Vec<DVec3> {
-        let surfaces = geometry.surfaces();
-        let rings = surfaces.iter().flat_map(|surface| &surface.rings);
-        rings.flatten().map(|&point| DVec3::from(point)).collect()
+    let sites: Vec<Site> = houses.iter().map(House::site).collect();
+    let feature = |(house, id): (&House, i64)| TileFeature {
+        id,
+        envelope: house.envelope(),
+        outline: outline(house.points.iter().copied()),
+        columns: columns(
+            house,
+            ground.holds(&house.envelope(), house.envelope().min.z),
+        ),
     };
-    let levels = feature.geometries.iter().map(|g| g.level_of_detail);
-    let best = levels.fold(0.0, f64::max);
-    let polygons = feature
-        .geometries
-        .iter()
-        .filter(|geometry| geometry.level_of_detail == best)
-        .flat_map(|geometry| geometry.surfaces().into_owned())
-        .map(|surface| -> Vec<Vec<DVec3>> {
-            let ring = |ring: Vec<[f64; 3]>| ring.into_iter().map(DVec3::from).collect();
-            surface.rings.into_iter().map(ring).collect()
-        });
-    let mesh = TriangleMesh::from_polygons(polygons);
-    let points: Vec<DVec3> = feature.geometries.iter().flat_map(points).collect();
-    (
-        Box3d::around(points.iter().copied()).expect("a point"),
-        mesh,
-        points,
-    )
-}
-
-/// Places on the streets, from a fixed sequence.
-fn eyes(streets: &[Street]) -> Vec<DVec3> {
-    let mut before = Vec::with_capacity(streets.len());
-    let mut total = 0.0;
-    for street in streets {
-        total += street.area.unsigned_area();
-        before.push(total);
-    }
-    let unit = |i: usize, base: f64| (i as f64 * base).fract();
-    let mut eyes = Vec::new();
-    for i in 1.. {
-        let place = unit(i, 0.754_877_666_246_693) * total;
-        let street = &streets[before
-            .partition_point(|&end| end <= place)
-            .min(streets.len() - 1)];
-        let rect = street.area.bounding_rect().expect("an area");
-        let x = rect.min().x + unit(i, 0.569_840_290_998_053) * rect.width();
-        let y = rect.min().y + unit(i, 0.362_656_070_415_29) * rect.height();
-        if street.area.contains(&Point::new(x, y)) {
-            eyes.push(DVec3::new(x, y, (street.eye_low + street.eye_high) / 2.0));
-        }
-        if eyes.len() == EYES {
-            break;
-        }
-    }
-    eyes
+    let features = houses.iter().zip(0..).map(feature).collect();
+    (features, open_space(&sites, &ViewRegionOptions::default()))
 }

@@ -170,6 +170,21 @@ fn a_gap_as_wide_as_a_rounding_is_a_gap() {
 }
 
 #[test]
+fn an_outline_may_turn_either_way() {
+    let corners = [[-5.0, 30.0], [5.0, 30.0], [5.0, 34.0], [-5.0, 60.0]];
+    for reversed in [false, true] {
+        let mut tower = thing(2, [-5.0, 30.0], [5.0, 60.0], [0.0, 20.0]);
+        tower.outline = corners.map(|at| DVec2::from_array(at) + PLACE).to_vec();
+        if reversed {
+            tower.outline.reverse();
+        }
+        // Its near side stands out over the house, its far side would not.
+        let house = house(1, [-20.0, 10.0], [20.0, 20.0], 7.0);
+        assert_eq!(seen(&[house, tower], &query(0.0, 0.0, 1.75)), [1, 2]);
+    }
+}
+
+#[test]
 fn a_sign_on_a_wall_is_seen_from_its_side_only() {
     let houses = [
         house(1, [-10.0, 10.0], [10.0, 20.0], 10.0),

@@ -2,8 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::horizon::Piece;
-use super::projection::{Edge, Facing, Side, Span};
+use super::projection::{Edge, Facing, Span};
 use super::tile::{Column, Feature, Tile, positions};
 use super::{EYE_MARGIN, PLACE_MARGIN, SLOPE_MARGIN};
 
@@ -18,8 +17,8 @@ const DEPTH_MARGIN: f64 = 1e-8;
 #[derive(Clone, Copy, Debug)]
 pub struct Wall {
     pub depth: f64,
-    pub side: Side,
-    pub piece: Piece,
+    /// Slopes to its top.
+    pub slopes: Span,
 }
 
 /// Reads columns; its memory is kept from one to the next.
@@ -35,7 +34,6 @@ impl WallFinder {
         tile: &Tile,
         feature: &Feature,
         eye: DVec3,
-        tag: u32,
         found: &mut impl FnMut(Wall),
     ) {
         let nearest = eye.clamp(feature.envelope.min, feature.envelope.max);
@@ -47,7 +45,7 @@ impl WallFinder {
             for ring in &tile.rings[positions(&column.rings)] {
                 let corners = positions(ring);
                 let buried = &tile.buried[corners.clone()];
-                self.ring(&tile.corners[corners], buried, column.top, eye, tag, found);
+                self.ring(&tile.corners[corners], buried, column.top, eye, found);
             }
         }
     }
@@ -60,7 +58,6 @@ impl WallFinder {
         buried: &[bool],
         top: f64,
         eye: DVec3,
-        tag: u32,
         found: &mut impl FnMut(Wall),
     ) {
         let height = top - eye.z;
@@ -114,16 +111,12 @@ impl WallFinder {
                     } else {
                         Corner::Drawn
                     };
-                    let part = Span {
+                    let slopes = Span {
                         from: (part.from - begin.reach()).max(-1.0),
                         to: (part.to + end.reach()).min(1.0),
                         ..part.scaled(height)
                     };
-                    found(Wall {
-                        depth,
-                        side: span.side,
-                        piece: Piece::new(&part, begin == Corner::End, end == Corner::End, tag),
-                    });
+                    found(Wall { depth, slopes });
                 });
             }
         }

@@ -78,6 +78,24 @@ impl Span {
         self.at_zero + self.rise * t
     }
 
+    /// The same line over other places.
+    #[inline]
+    pub fn part(self, from: f64, to: f64) -> Self {
+        Self { from, to, ..self }
+    }
+
+    /// Its lowest value.
+    #[inline]
+    pub fn lowest(&self) -> f64 {
+        self.value(self.from).min(self.value(self.to))
+    }
+
+    /// Its highest value.
+    #[inline]
+    pub fn highest(&self) -> f64 {
+        self.value(self.from).max(self.value(self.to))
+    }
+
     /// The same line times a factor.
     #[inline]
     pub fn scaled(self, factor: f64) -> Self {

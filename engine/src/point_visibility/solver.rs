@@ -64,9 +64,10 @@ pub struct Sighting {
 pub struct PointSolver {
     horizon: Horizon,
     /// What is left to visit, nearest first.
-    open: BinaryHeap<Visit>,
+    open: BinaryHeap<ByDepth<Visit>>,
     /// Walls that the walk has not passed yet, nearest far end first.
-    pending: BinaryHeap<Pending>,
+    pending: BinaryHeap<ByDepth<usize>>,
+    /// All walls of this walk; `pending` has their positions.
     walls: Vec<Wall>,
     finder: WallFinder,
     /// Corners of the prism in hand, relative to the eye.
@@ -101,8 +102,8 @@ impl PointSolver {
         for (tile, bounds) in source.bounds().iter().enumerate() {
             self.open(query, tile, None, bounds);
         }
-        while let Some(visit) = self.open.pop() {
-            self.pass(visit.depth);
+        while let Some(ByDepth { depth, item: visit }) = self.open.pop() {
+            self.pass(depth);
             let Some(at) = visit.node else {
                 if !self.hides_box(query.eye, &source.bounds()[visit.tile]) {
                     let root = source.tile(visit.tile)?.tree.nodes.first().copied();
@@ -138,10 +139,9 @@ impl PointSolver {
     /// Puts a box that is in range among those to visit.
     fn open(&mut self, query: &PointQuery, tile: usize, node: Option<u32>, bounds: &Box3d) {
         if is_in_range(query, bounds) {
-            self.open.push(Visit {
+            self.open.push(ByDepth {
                 depth: depth(query.eye, bounds),
-                tile,
-                node,
+                item: Visit { tile, node },
             });
         }
     }
@@ -151,8 +151,7 @@ impl PointSolver {
         while let Some(nearest) = self.pending.peek()
             && nearest.depth < depth
         {
-            let wall = &self.walls[nearest.wall];
-            self.horizon.raise(wall.side, &wall.piece);
+            self.horizon.raise(&self.walls[nearest.item].slopes);
             self.pending.pop();
         }
     }
@@ -184,13 +183,13 @@ impl PointSolver {
             distance: feature.envelope.distance_to_point(query.eye),
         });
         let (walls, pending, horizon) = (&mut self.walls, &mut self.pending, &self.horizon);
-        self.finder.walls(tile, feature, query.eye, 0, &mut |wall| {
-            if horizon.covers(wall.side, &wall.piece) {
+        self.finder.walls(tile, feature, query.eye, &mut |wall| {
+            if horizon.covers(&wall.slopes) {
                 return;
             }
-            pending.push(Pending {
+            pending.push(ByDepth {
                 depth: wall.depth,
-                wall: walls.len(),
+                item: walls.len(),
             });
             walls.push(wall);
         });
@@ -239,42 +238,37 @@ fn depth(eye: DVec3, bounds: &Box3d) -> f64 {
 /// Something to visit.
 #[derive(Clone, Copy, Debug)]
 struct Visit {
-    depth: f64,
     tile: usize,
     /// None for the tile itself.
     node: Option<u32>,
 }
 
-/// A wall that is not part of the horizon yet.
+/// Something in a heap that has the least depth on top.
 #[derive(Clone, Copy, Debug)]
-struct Pending {
+struct ByDepth<T> {
     depth: f64,
-    wall: usize,
+    item: T,
 }
 
-/// Orders a heap by depth, the least on top.
-macro_rules! nearest_first {
-    ($type:ty) => {
-        impl Ord for $type {
-            fn cmp(&self, other: &Self) -> Ordering {
-                other.depth.total_cmp(&self.depth)
-            }
-        }
-        impl PartialOrd for $type {
-            fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-                Some(self.cmp(other))
-            }
-        }
-        impl PartialEq for $type {
-            fn eq(&self, other: &Self) -> bool {
-                self.cmp(other) == Ordering::Equal
-            }
-        }
-        impl Eq for $type {}
-    };
+impl<T> Ord for ByDepth<T> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.depth.total_cmp(&self.depth)
+    }
 }
-nearest_first!(Visit);
-nearest_first!(Pending);
+
+impl<T> PartialOrd for ByDepth<T> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl<T> PartialEq for ByDepth<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl<T> Eq for ByDepth<T> {}
 
 /// One tile, in memory.
 struct Single<'a> {

@@ -36,8 +36,13 @@ pub fn outline_slopes(
         match edge.facing() {
             Facing::EdgeOn => visit(&level(&edge, top, is_above)?)?,
             facing if facing == deciding => {
+                let mut is_bounded = false;
                 for (span, ..) in edge.spans() {
                     visit(&span.scaled(top))?;
+                    is_bounded = true;
+                }
+                if !is_bounded {
+                    return ControlFlow::Break(());
                 }
             }
             _ => {}

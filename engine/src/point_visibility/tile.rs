@@ -7,7 +7,7 @@ use geo::LineString;
 use glam::DVec2;
 
 use super::tree::Tree;
-use crate::{Box3d, SolidColumn};
+use crate::{Box3d, OuterPrism, SolidColumn};
 
 /// A feature as it is given to a tile.
 #[derive(Clone, Debug)]
@@ -16,7 +16,7 @@ pub struct TileFeature {
     pub id: i64,
     /// Outer envelope, metres.
     pub envelope: Box3d,
-    /// Corners of the outer prism, anticlockwise; none where only the envelope is known.
+    /// Corners of the outer prism; none where only the envelope is known. Their convex hull is taken.
     pub outline: Vec<DVec2>,
     /// What hides. Only grounded columns within the envelope do, from a point.
     pub columns: Vec<SolidColumn>,
@@ -95,7 +95,10 @@ impl Tile {
     }
 
     fn add(&mut self, feature: &TileFeature) {
-        let outline = self.add_corners(feature.outline.iter().map(|&corner| (corner, false)));
+        // A polygon that turned clockwise would be hidden by what only its far side is below.
+        let prism = OuterPrism::around(feature.outline.iter().map(|corner| corner.extend(0.0)));
+        let hull = prism.map_or(Vec::new(), |prism| prism.hull);
+        let outline = self.add_corners(hull.into_iter().map(|corner| (corner, false)));
         let hiding: Vec<&SolidColumn> = feature
             .columns
             .iter()

@@ -238,7 +238,8 @@ proptest! {
             }
         }
         match read(&file) {
-            Err(error) => prop_assert!(error.to_string().starts_with("bad.osm.pbf: ")),
+            // A changed first byte can make another format of it, whose errors name lines too.
+            Err(error) => prop_assert_eq!(error.file(), "bad.osm.pbf"),
             Ok(scene) => {
                 let shapes = scene.features.iter().flat_map(|f| &f.geometries).map(|g| &g.shape);
                 let mut numbers = shapes.flat_map(|s| &s.surfaces).flat_map(|s| &s.rings).flatten().flatten();

@@ -5,7 +5,9 @@
 //! to its top are linear in `t`. So the horizon, the highest slope below which all is hidden, is an
 //! upper envelope of straight pieces, kept exactly: no raster, and no trigonometry.
 
+mod bytes;
 mod horizon;
+mod neighbourhoods;
 mod occluder;
 mod projection;
 mod solver;
@@ -13,6 +15,8 @@ mod target;
 mod tile;
 mod tree;
 
+pub use bytes::MalformedTile;
+pub use neighbourhoods::neighbourhoods;
 pub use solver::{PointQuery, PointSolver, Sighting, TileSource, visible_from_point};
 pub use tile::{Tile, TileFeature};
 

@@ -31,6 +31,12 @@ pub trait TileSource {
     /// # Errors
     /// As the source has them.
     fn tile(&mut self, position: usize) -> Result<&Tile, Self::Error>;
+
+    /// Whether what a tile says of a feature is out of date: it is passed over then, as if it were not
+    /// in the tile. The boxes around it may still hold it.
+    fn is_outdated(&self, _tile: usize, _feature: i64) -> bool {
+        false
+    }
 }
 
 /// What is asked.
@@ -118,12 +124,17 @@ impl PointSolver {
             if self.hides_box(query.eye, &node.bounds) {
                 continue;
             }
-            if node.count == 0 {
-                self.meet(query, visit.tile, tile, node.first as usize, visible);
-            }
             for child in node.first..node.first + node.count {
                 let bounds = &tile.tree.nodes[child as usize].bounds;
                 self.open(query, visit.tile, Some(child), bounds);
+            }
+            if node.count == 0 {
+                let position = node.first as usize;
+                let feature = tile.features[position].id;
+                if !source.is_outdated(visit.tile, feature) {
+                    let tile = source.tile(visit.tile)?;
+                    self.meet(query, visit.tile, tile, position, visible);
+                }
             }
         }
         Ok(())

@@ -6,7 +6,7 @@ use std::ops::Range;
 use crate::Box3d;
 
 /// Children of a node.
-const FANOUT: usize = 4;
+pub const FANOUT: usize = 4;
 
 /// Boxes in a tree whose nodes hold up to four others.
 #[derive(Clone, Debug, Default)]
@@ -96,8 +96,8 @@ fn groups(boxes: &[Box3d], order: &mut [usize], range: Range<usize>) -> Vec<Rang
     groups
 }
 
-/// Parts boxes at the median of their centres; returns how many come first.
-fn halve(boxes: &[Box3d], order: &mut [usize]) -> usize {
+/// Parts boxes at the median of their centres, across the longer way in plan; returns how many come first.
+pub fn halve(boxes: &[Box3d], order: &mut [usize]) -> usize {
     let bounds = around(boxes, order);
     let axis = usize::from(bounds.size().y > bounds.size().x);
     let middle = order.len() / 2;

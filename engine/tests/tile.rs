@@ -1,0 +1,162 @@
+//! Tiles as bytes, and which features share one.
+
+use engine::{
+    Box3d, CityFeature, CityLayout, PointQuery, PointSolver, Tile, TileFeature, TileSource,
+    generated_city, neighbourhoods,
+};
+use glam::DVec3;
+use proptest::prelude::*;
+use std::convert::Infallible;
+
+/// A city of houses, each with an outline.
+fn city(features: usize) -> Vec<TileFeature> {
+    let houses = generated_city(CityLayout::Blocks, features, 7);
+    let feature = |(id, house): (i64, CityFeature)| TileFeature {
+        id,
+        envelope: house.envelope,
+        outline: house.mesh.vertices.iter().map(|v| v.truncate()).collect(),
+        columns: vec![house.column],
+    };
+    (0..).zip(houses.features()).map(feature).collect()
+}
+
+/// A tile, and which of its features are out of date.
+struct Source {
+    tile: Tile,
+    bounds: Vec<Box3d>,
+    outdated: Option<i64>,
+}
+
+impl TileSource for Source {
+    type Error = Infallible;
+
+    fn bounds(&self) -> &[Box3d] {
+        &self.bounds
+    }
+
+    fn tile(&mut self, _: usize) -> Result<&Tile, Infallible> {
+        Ok(&self.tile)
+    }
+
+    fn is_outdated(&self, _: usize, feature: i64) -> bool {
+        self.outdated == Some(feature)
+    }
+}
+
+fn seen(tile: &Tile, eye: DVec3, outdated: Option<i64>) -> Vec<i64> {
+    let mut source = Source {
+        bounds: tile.bounds().into_iter().collect(),
+        tile: tile.clone(),
+        outdated,
+    };
+    let query = PointQuery {
+        eye,
+        range: 400.0,
+        prisms: true,
+    };
+    let mut sightings = Vec::new();
+    let Ok(()) = PointSolver::default().solve(&query, &mut source, &mut sightings);
+    let mut ids: Vec<i64> = sightings
+        .iter()
+        .map(|s| tile.feature(s.feature).0)
+        .collect();
+    ids.sort_unstable();
+    ids
+}
+
+fn middle(tile: &Tile) -> DVec3 {
+    tile.bounds().unwrap().center().truncate().extend(1.7)
+}
+
+#[test]
+fn a_tile_survives_as_bytes() {
+    for features in [0, 1, 5, 200] {
+        let tile = Tile::new(&city(features));
+        let bytes = tile.to_bytes();
+        let read = Tile::from_bytes(&bytes).unwrap();
+        assert_eq!(read.to_bytes(), bytes);
+        assert_eq!(read.bounds(), tile.bounds());
+        if features > 0 {
+            let eye = middle(&tile);
+            assert_eq!(seen(&read, eye, None), seen(&tile, eye, None));
+        }
+    }
+}
+
+#[test]
+fn what_is_out_of_date_is_passed_over_and_hides_nothing() {
+    let features = city(300);
+    let tile = Tile::new(&features);
+    let eye = middle(&tile);
+    let all = seen(&tile, eye, None);
+    let mut uncovered = 0;
+    for &id in &all {
+        let without: Vec<TileFeature> = features.iter().filter(|f| f.id != id).cloned().collect();
+        let left = seen(&tile, eye, Some(id));
+        assert_eq!(left, seen(&Tile::new(&without), eye, None));
+        uncovered += usize::from(left.len() >= all.len());
+    }
+    assert!(uncovered > 0, "some feature hides another one");
+}
+
+#[test]
+fn bytes_that_are_no_tile_are_told() {
+    let bytes = Tile::new(&city(10)).to_bytes();
+    let told = |bytes: &[u8]| Tile::from_bytes(bytes).unwrap_err().to_string();
+    assert_eq!(told(&[]), "form 0 of a tile is not known");
+    assert_eq!(told(&[9, 0, 0, 0]), "form 9 of a tile is not known");
+    let short = &bytes[..bytes.len() - 1];
+    let (found, expected) = (short.len(), bytes.len());
+    assert_eq!(
+        told(short),
+        format!("a tile of {found} bytes should have {expected}")
+    );
+    let at_tree = 4 + 5 * 4;
+    let mut loose = bytes.clone();
+    loose[at_tree..at_tree + 8].copy_from_slice(&f64::NAN.to_le_bytes());
+    assert_eq!(told(&loose), "boxes of a tile are not in order");
+    let mut circular = bytes;
+    circular[at_tree + 48] = 0;
+    assert_eq!(told(&circular), "nodes of a tile are not in order");
+}
+
+#[test]
+fn neighbours_share_tiles_and_long_features_have_their_own() {
+    let mut boxes: Vec<Box3d> = city(1000).iter().map(|feature| feature.envelope).collect();
+    let wall = Box3d::new(DVec3::new(0.0, 0.0, 0.0), DVec3::new(900.0, 1.0, 3.0));
+    boxes.extend([wall; 3]);
+    let groups = neighbourhoods(&boxes);
+    let mut all: Vec<usize> = groups.concat();
+    all.sort_unstable();
+    assert_eq!(all, (0..boxes.len()).collect::<Vec<_>>());
+    assert!(groups.contains(&vec![1000, 1001, 1002]));
+    let around = |group: &[usize]| group.iter().map(|&at| boxes[at]).reduce(|a, b| a.union(&b));
+    let area = |bounds: Box3d| bounds.size().x * bounds.size().y;
+    let usual = groups.iter().filter(|group| group[0] < 1000);
+    let covered: f64 = usual.map(|group| area(around(group).unwrap())).sum();
+    let city = around(&(0..1000).collect::<Vec<_>>()).unwrap();
+    assert!(
+        covered < 1.5 * area(city),
+        "tiles of {covered} m² overlap much"
+    );
+    assert!(neighbourhoods(&[]).is_empty());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..Default::default() })]
+
+    #[test]
+    fn no_mutation_makes_a_tile_that_cannot_be_searched(
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
+    ) {
+        let mut bytes = Tile::new(&city(20)).to_bytes();
+        for (at, byte) in changes {
+            let at = at.index(bytes.len());
+            bytes[at] ^= byte;
+        }
+        if let Ok(tile) = Tile::from_bytes(&bytes) {
+            let count = seen(&tile, middle(&tile), None).len();
+            prop_assert!(count <= 20);
+        }
+    }
+}

@@ -1,6 +1,6 @@
--- Making scenes without files, and their view region.
+-- Making scenes without files, and their view region. CREATE OR REPLACE, since upgrades run this file too.
 
-CREATE FUNCTION occlusion.make_city(layout text, features integer, seed bigint,
+CREATE OR REPLACE FUNCTION occlusion.make_city(layout text, features integer, seed bigint,
                                     first_part integer DEFAULT 0, parts integer DEFAULT 2147483647)
 RETURNS TABLE (number integer, kind text, class text, envelope occlusion.box3d, inner_envelope occlusion.box3d,
                vertices float8[], triangles integer[], footprint text[], top float8)
@@ -8,13 +8,13 @@ LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'make_city_wrapp
 COMMENT ON FUNCTION occlusion.make_city(text, integer, bigint, integer, integer) IS
     'the features of some parts of a generated city, each a small piece of it: their boxes, closed meshes and solid columns';
 
-CREATE FUNCTION occlusion.make_city_streets(layout text, features integer, seed bigint)
+CREATE OR REPLACE FUNCTION occlusion.make_city_streets(layout text, features integer, seed bigint)
 RETURNS TABLE (area text[], eye_low float8, eye_high float8)
 LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'make_city_streets_wrapper';
 COMMENT ON FUNCTION occlusion.make_city_streets(text, integer, bigint) IS
     'the streets of a generated city, rings as text';
 
-CREATE FUNCTION occlusion.generate_city(scene text, layout text DEFAULT 'scattered',
+CREATE OR REPLACE FUNCTION occlusion.generate_city(scene text, layout text DEFAULT 'scattered',
                                         features integer DEFAULT 326, seed integer DEFAULT 1)
 RETURNS bigint
 LANGUAGE plpgsql VOLATILE STRICT
@@ -83,13 +83,14 @@ BEGIN
     END LOOP;
     EXECUTE format('SELECT pg_catalog.setval(pg_catalog.pg_get_serial_sequence(%L, %L), greatest($1, 1))',
                    format('%I.feature', scene), 'id') USING made;
+    PERFORM occlusion.pack_tiles(scene, optional => true);
     RETURN made;
 END
 $$;
 COMMENT ON FUNCTION occlusion.generate_city(text, text, integer, integer) IS
     'fills a new scene with a generated city: scattered (that of the 2004 report), blocks or streets; returns the number of features';
 
-CREATE FUNCTION occlusion.generate_view_region(scene text, eye_low float8 DEFAULT 1.5,
+CREATE OR REPLACE FUNCTION occlusion.generate_view_region(scene text, eye_low float8 DEFAULT 1.5,
                                                eye_high float8 DEFAULT 2.0, tile float8 DEFAULT 50)
 RETURNS bigint
 LANGUAGE c VOLATILE STRICT SET search_path = pg_catalog, pg_temp

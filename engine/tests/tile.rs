@@ -125,11 +125,14 @@ fn neighbours_share_tiles_and_long_features_have_their_own() {
     let mut boxes: Vec<Box3d> = city(1000).iter().map(|feature| feature.envelope).collect();
     let wall = Box3d::new(DVec3::new(0.0, 0.0, 0.0), DVec3::new(900.0, 1.0, 3.0));
     boxes.extend([wall; 3]);
-    let groups = neighbourhoods(&boxes);
+    let groups = neighbourhoods(&boxes, |_| 1, 64);
     let mut all: Vec<usize> = groups.concat();
     all.sort_unstable();
     assert_eq!(all, (0..boxes.len()).collect::<Vec<_>>());
     assert!(groups.contains(&vec![1000, 1001, 1002]));
+    assert!(groups.iter().all(|group| group.len() <= 64));
+    let weight = |at: usize| if at == 7 { 1000 } else { 1 };
+    assert!(neighbourhoods(&boxes, weight, 64).contains(&vec![7]));
     let around = |group: &[usize]| group.iter().map(|&at| boxes[at]).reduce(|a, b| a.union(&b));
     let area = |bounds: Box3d| bounds.size().x * bounds.size().y;
     let usual = groups.iter().filter(|group| group[0] < 1000);
@@ -139,7 +142,7 @@ fn neighbours_share_tiles_and_long_features_have_their_own() {
         covered < 1.5 * area(city),
         "tiles of {covered} m² overlap much"
     );
-    assert!(neighbourhoods(&[]).is_empty());
+    assert!(neighbourhoods(&[], |_| 1, 64).is_empty());
 }
 
 proptest! {

@@ -48,6 +48,12 @@ impl Refusal {
     }
 }
 
+impl std::fmt::Display for Refusal {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
 /// The value, or the refusal raised.
 pub fn or_raise<T>(result: Result<T, Refusal>) -> T {
     result.unwrap_or_else(|refusal| refusal.raise())

@@ -2,6 +2,7 @@
 
 use crate::types::{Frustum, ViewCone, ViewSector};
 use engine::Box3d;
+use glam::DVec3;
 use pgrx::pg_sys;
 
 /// What an observer looks at, as the user gave it.
@@ -31,6 +32,15 @@ pub enum Prepared {
 }
 
 impl FieldOfView {
+    /// The eye, and how far it sees in metres.
+    pub fn eye_and_range(&self) -> (DVec3, f64) {
+        match self {
+            Self::Cone(cone) => cone.eye_and_range(),
+            Self::Sector(sector) => sector.eye_and_range(),
+            Self::Frustum(frustum) => frustum.eye_and_range(),
+        }
+    }
+
     /// The same, prepared.
     pub fn prepared(&self) -> Prepared {
         match self {

@@ -11,7 +11,9 @@ mod models;
 mod planner;
 mod scene;
 mod settings;
+mod snapshot_read;
 mod types;
+mod visibility;
 
 pgrx::pg_module_magic!();
 

@@ -5,6 +5,9 @@ use pgrx::{GucContext, GucFlags, GucRegistry, GucSetting};
 /// Threads that one procedure may use; 0 for one a core.
 pub static MAX_THREADS: GucSetting<i32> = GucSetting::<i32>::new(0);
 
+/// Memory for the tiles that a backend keeps, kB.
+static CACHE_SIZE: GucSetting<i32> = GucSetting::<i32>::new(64 * 1024);
+
 /// Most threads that can be asked for.
 const MOST_THREADS: i32 = 1024;
 
@@ -20,4 +23,19 @@ pub fn register() {
         GucContext::Userset,
         GucFlags::default(),
     );
+    GucRegistry::define_int_guc(
+        c"pg_occlusion.cache_size",
+        c"Memory for the packed tiles that each backend keeps.",
+        c"Those that were used last are kept. A query may need more while it runs.",
+        &CACHE_SIZE,
+        0,
+        i32::MAX,
+        GucContext::Userset,
+        GucFlags::UNIT_KB,
+    );
+}
+
+/// Bytes of the tiles that a backend keeps.
+pub fn cache_bytes() -> usize {
+    usize::try_from(CACHE_SIZE.get()).unwrap_or(0) * 1024
 }

@@ -356,7 +356,7 @@ FROM look,
      LATERAL (SELECT count(*) FROM regress_frustum.feature AS g WHERE g.envelope && f
                  AND g.id NOT IN (SELECT feature_id FROM visible_features('regress_frustum', f))) AS c (hidden);
 SELECT count(*) > 0 AS t FROM explain_visible_features('regress_frustum', (SELECT f FROM look LIMIT 1)) AS line
-WHERE line ~ 'Index Scan.* on feature|Bitmap Index Scan on feature';
+WHERE line ~ '^Tiles in Range: [1-9]';
 
 -- Models: those of the features, the nearest first.
 SELECT bool_and(models IS NOT DISTINCT FROM features) AS t, sum(cardinality(models)) > 10 AS t, bool_and(glb) AS t

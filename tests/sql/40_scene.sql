@@ -19,7 +19,7 @@ SELECT occlusion.create_scene('regress_scene', 28992);
 \pset format unaligned
 SELECT table_name, string_agg(column_name || ' ' || replace(data_type, 'USER-DEFINED', udt_name), ', ' ORDER BY ordinal_position)
 FROM information_schema.columns WHERE table_schema = 'regress_scene' GROUP BY table_name ORDER BY table_name;
-SELECT count(*) = 1 AND min(srid) = 28992 AND min(format_version) = 1 AND min(ground) IS NULL AS t FROM regress_scene.scene_info;
+SELECT count(*) = 1 AND min(srid) = 28992 AND min(format_version) = 2 AND min(ground) IS NULL AS t FROM regress_scene.scene_info;
 SELECT indexname FROM pg_indexes WHERE schemaname = 'regress_scene' AND indexdef LIKE '%gist%' ORDER BY indexname;
 -- A scene has all that functions look for.
 SELECT count(*) = 0 AS t
@@ -152,7 +152,7 @@ SELECT occlusion.generate_city('regress_scene', 'scattered', 10);
 ALTER SCHEMA regress_scene RENAME TO regress_renamed;
 SELECT count(*) = 10 AS t FROM occlusion.visible_features('regress_renamed', 'POINT(500 500 900)', 3000);
 -- One whose mark is damaged is dropped by force only.
-DROP TABLE regress_renamed.job;
+DROP TABLE regress_renamed.street;
 SELECT pg_temp.outcome($$SELECT occlusion.visible_features('regress_renamed', 'POINT(500 500 900)', 3000)$$);
 SELECT pg_temp.outcome($$SELECT occlusion.drop_scene('regress_renamed')$$);
 SET client_min_messages = warning;

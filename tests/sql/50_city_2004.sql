@@ -58,7 +58,8 @@ JOIN regress_2004.feature AS a ON a.id = v.occluder
 JOIN regress_2004.feature AS b ON b.id = v.occludee;
 
 -- The report's first query: what is in view of the observer, as far as the index of envelopes knows.
--- Its second: what is hidden from the observer's place. The answer is the first without the second.
+-- Its second: what is hidden from the observer's place, each by a single feature. The answer of the report is
+-- the first without the second; ours is less, since features also hide together.
 CREATE TEMPORARY TABLE half AS
 SELECT * FROM (VALUES
     ('north', 'BOX3D(0 500 0, 505 1000 500)'::occlusion.box3d, 'VIEW_SECTOR(5 500 1.75, 45, 90, 500)'::occlusion.view_sector,
@@ -79,12 +80,11 @@ SELECT h.name,
        (SELECT count(*) FROM in_reach AS r WHERE r.name = h.name) AS in_reach,
        (SELECT count(*) FROM in_sector AS r WHERE r.name = h.name) AS in_sector,
        (SELECT count(*) FROM in_sector AS r JOIN hidden USING (id) WHERE r.name = h.name) AS hidden,
+       (SELECT count(*) FROM in_sector AS r WHERE r.name = h.name AND r.id NOT IN (TABLE hidden)) AS not_hidden,
        (SELECT count(*) FROM answer AS a WHERE a.name = h.name) AS answer
 FROM half AS h ORDER BY h.name;
--- Each feature in the sector is returned or hidden, never both, never neither; and each is in reach.
-SELECT count(*) = 0 AS t FROM in_sector AS s LEFT JOIN hidden AS h USING (id)
-LEFT JOIN answer AS a ON a.name = s.name AND a.feature_id = s.id
-WHERE (h.id IS NULL) <> (a.feature_id IS NOT NULL);
+-- No feature is returned and hidden; and each is in reach.
+SELECT count(*) = 0 AS t FROM hidden AS h JOIN answer AS a ON a.feature_id = h.id;
 SELECT count(*) = 0 AS t FROM (SELECT name, feature_id FROM answer EXCEPT ALL SELECT name, id FROM in_sector) AS beyond;
 SELECT count(*) = 0 AS t FROM (TABLE in_sector EXCEPT TABLE in_reach) AS beyond;
 SELECT bool_and(a.class = f.class AND a.envelope OPERATOR(occlusion.=) f.envelope
@@ -98,11 +98,11 @@ SELECT count(*) = 0 AS t FROM (
 SELECT count(*) = 0 AS t FROM (
     SELECT feature_id FROM answer
     EXCEPT SELECT feature_id FROM occlusion.visible_features('regress_2004', 'POINT(5 500 1.75)', 500)) AS less;
--- All round is exactly what is within range and not hidden.
+-- All round is within range and not hidden.
 SELECT count(*) = 0 AS t FROM (
-    SELECT id FROM regress_2004.feature
-    WHERE envelope OPERATOR(occlusion.<->) 'POINT(5 500 1.75)'::occlusion.point3d <= 500 AND id NOT IN (TABLE hidden)
-    EXCEPT ALL SELECT feature_id FROM occlusion.visible_features('regress_2004', 'POINT(5 500 1.75)', 500)) AS missing;
+    SELECT feature_id FROM occlusion.visible_features('regress_2004', 'POINT(5 500 1.75)', 500)
+    EXCEPT ALL SELECT id FROM regress_2004.feature
+    WHERE envelope OPERATOR(occlusion.<->) 'POINT(5 500 1.75)'::occlusion.point3d <= 500 AND id NOT IN (TABLE hidden)) AS beyond;
 
 -- The nearest feature is always in the answer.
 SELECT count(*) = 1 AS t

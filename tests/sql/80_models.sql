@@ -19,7 +19,7 @@ $$;
 SELECT occlusion.create_scene('regress_models', 28992);
 CREATE TEMP TABLE house (name text, footprint polygon, height float8);
 INSERT INTO house VALUES
-    ('front', '((85000,447000),(85010,447000),(85010,447010),(85000,447010))', 9),
+    ('front', '((85000,447000),(85010,447000),(85010,447010),(85000,447010))', 1),
     ('behind', '((85000,447100),(85010,447100),(85010,447110),(85000,447110))', 5),
     ('bare', '((85500,447100),(85510,447100),(85510,447110),(85500,447110))', 5);
 SELECT occlusion.import_features('regress_models', 'house');

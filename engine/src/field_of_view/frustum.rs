@@ -42,6 +42,12 @@ impl Frustum {
         })
     }
 
+    /// Distance of the farthest corner from the eye, metres.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        self.reach
+    }
+
     /// Whether frustum and box share a point.
     ///
     /// Two convex polyhedra are apart just when they are along some axis that is normal to a face of

@@ -102,6 +102,12 @@ impl Tile {
         Ok(tile)
     }
 
+    /// Length of [`Tile::to_bytes`], which is also what it takes in memory, give or take a few.
+    #[must_use]
+    pub fn byte_length(&self) -> usize {
+        self.counts().length()
+    }
+
     fn counts(&self) -> Counts {
         Counts([
             self.tree.nodes.len(),

@@ -5,6 +5,7 @@ mod solid;
 mod write;
 
 use crate::scene::{self, Workers};
+use crate::visibility::pack_if_possible;
 use pgrx::prelude::*;
 use pgrx::spi::SpiClient;
 use rayon::prelude::*;
@@ -37,6 +38,7 @@ fn import_rows(scene: &str, source: &str, query: &str) -> i64 {
     });
     let made = made.unwrap_or_else(|error| scene::failed(&error));
     scene::settle(scene, &made);
+    pack_if_possible(scene);
     scene::count(made.len())
 }
 

@@ -7,9 +7,9 @@ use engine::BoxRelation;
 use pgrx::{FromDatum, pg_sys};
 use std::ffi::{CStr, CString};
 
-/// Share of the features in a field of view that is returned where volumes hide some: between a
-/// third, in generated cities, and four fifths, in a real one (docs/benchmarks.md).
-const RETURNED_SHARE: f64 = 0.5;
+/// Features seen all round for each e-fold of those in range: the nearest hide the others, so that their
+/// number grows as the logarithm of what is there (docs/benchmarks.md, "From a point").
+const SEEN_BY_FOLD: f64 = 25.0;
 
 /// Rows of `visible_features(scene, field of view, …)` or `(scene, observer, range, …)`. Looks at
 /// the catalogs only, takes no locks, and raises no error: a scene that is none fails when the
@@ -21,12 +21,19 @@ pub fn visible_rows(arguments: &Arguments) -> Option<f64> {
     let query = field_of_view(arguments)?;
     let tables = Tables::of(&scene)?;
     let feature = tables.find(c"feature")?;
-    let share = feature.share(c"envelope", &query)?;
-    let hides = tables
-        .find(c"occlusion_volume")
-        .is_some_and(|volumes| volumes.rows > 0.0);
-    let returned = if hides { RETURNED_SHARE } else { 1.0 };
-    Some(feature.rows * share * returned)
+    let in_view = feature.rows * feature.share(c"envelope", &query)?;
+    let around = match query {
+        Query::InView(_, eye, range) => {
+            feature.rows * feature.share(c"envelope", &Query::InRange(eye, range))?
+        }
+        _ => in_view,
+    };
+    Some(in_view * seen_share(around))
+}
+
+/// The share of the features in range that is seen all round, among houses.
+fn seen_share(around: f64) -> f64 {
+    (SEEN_BY_FOLD * around.ln_1p() / around.max(1.0)).min(1.0)
 }
 
 /// What the observer looks at.

@@ -11,8 +11,8 @@ use std::ffi::CStr;
 pub enum Query {
     /// A box, or a point as a box.
     Bounds(engine::Box3d),
-    /// A field of view.
-    InView(Box<Prepared>),
+    /// A field of view, with its eye and range.
+    InView(Box<Prepared>, DVec3, f64),
     /// All that is within a range of an eye, metres.
     InRange(DVec3, f64),
 }
@@ -21,7 +21,10 @@ impl Query {
     /// The query in a constant that is not null; `None` if it is of no type that is estimated.
     pub fn of(constant: &pg_sys::Const) -> Option<Self> {
         let value = constant.constvalue;
-        let in_view = |view: FieldOfView| Self::InView(Box::new(view.prepared()));
+        let in_view = |view: FieldOfView| {
+            let (eye, range) = view.eye_and_range();
+            Self::InView(Box::new(view.prepared()), eye, range)
+        };
         let name = type_name(constant.consttype);
         // SAFETY: the constant is not null, and its type's name tells what it points to.
         unsafe {
@@ -44,7 +47,7 @@ impl Query {
     pub fn share(&self, boxes: &BoxStatistics, relation: BoxRelation) -> f64 {
         match self {
             Self::Bounds(bounds) => boxes.share(relation, bounds),
-            Self::InView(view) => boxes.share_meeting(|target| view.meets(target)),
+            Self::InView(view, ..) => boxes.share_meeting(|target| view.meets(target)),
             Self::InRange(eye, range) => {
                 boxes.share_meeting(|target| engine::in_range(*eye, *range, target))
             }

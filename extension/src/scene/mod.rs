@@ -36,7 +36,7 @@ pub fn given<T>(argument: Option<T>, name: &str) -> T {
 }
 
 /// Runs a statement whose result nobody needs.
-fn run(statement: &str, arguments: &[DatumWithOid]) {
+pub fn run(statement: &str, arguments: &[DatumWithOid]) {
     if let Err(error) = Spi::run_with_args(statement, arguments) {
         failed(&error);
     }

@@ -8,6 +8,7 @@ mod frustum;
 mod number;
 mod ordering;
 mod point3d;
+mod ring;
 mod text;
 mod view_cone;
 mod view_sector;
@@ -17,7 +18,9 @@ pub use box3d::Box3d;
 pub use datum::{Raw, read};
 pub use feature_set::StoredSet;
 pub use frustum::Frustum;
+pub use number::shortest;
 pub use point3d::Point3d;
+pub use ring::{ring, rings};
 pub use view_cone::ViewCone;
 pub use view_sector::ViewSector;
 

@@ -6,6 +6,7 @@ use super::ordering::ordered_type;
 use super::text::Literal;
 use super::{Point3d, Raw, wire};
 use crate::error::{Refusal, or_raise};
+use glam::DVec3;
 use pgrx::{default, pg_extern, pg_sys};
 use std::ffi::{CStr, CString};
 
@@ -56,6 +57,11 @@ impl ViewCone {
     fn numbers(&self) -> [f64; 7] {
         let [x, y, z] = self.observer.0.to_array();
         [x, y, z, self.heading, self.angle, self.range, self.pitch]
+    }
+
+    /// The eye, and how far it sees in metres.
+    pub fn eye_and_range(&self) -> (DVec3, f64) {
+        (self.observer.0, self.range)
     }
 
     /// The cone to compute with.

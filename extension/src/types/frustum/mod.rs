@@ -174,6 +174,14 @@ impl Frustum {
         Self::checked(numbers.map(|number| number + 0.0))
     }
 
+    /// The eye, and the distance of what is farthest from it in metres.
+    pub fn eye_and_range(&self) -> (DVec3, f64) {
+        let reach = self
+            .in_radians()
+            .map_or(f64::MAX, |frustum| frustum.reach());
+        (self.observer.0, reach)
+    }
+
     /// The frustum to compute with; there is one, or the value would have been refused.
     pub fn in_radians(&self) -> Option<engine::Frustum> {
         engine::Frustum::new(&self.camera())

@@ -1,0 +1,375 @@
+//! `log_edit`, the trigger that writes which features were edited, and where, to the table `edit` of
+//! their scene. What is in the log counts as the tables have it, not as the packed tiles do.
+//!
+//! A row is logged before it changes, and after if it became different from what was announced: at no
+//! moment is there a change that is not in the log. A change of what hides in a feature is logged with
+//! no place: the feature may be elsewhere by the time that others see it.
+
+use super::tables::{has_pages, relation};
+use crate::direct_call::direct_function;
+use crate::error::Refusal;
+use crate::scene::quoted;
+use crate::snapshot_read::{Moment, Statement};
+use crate::types::Box3d;
+use pgrx::pg_sys::{self, Datum, Oid};
+use pgrx::{FromDatum, IntoDatum, PgSqlErrorCode};
+use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
+use std::ffi::{CStr, c_void};
+
+/// Features that a transaction remembers to have logged. It forgets them all when there are more, and
+/// may then log one again.
+const MOST_REMEMBERED: usize = 100_000;
+
+/// Places that are remembered of one feature.
+const MOST_PLACES: usize = 4;
+
+direct_function! {
+    /// The trigger.
+    fn log_edit(call: pg_sys::FunctionCallInfo) -> *mut pg_sys::HeapTupleData {
+        let event = Event::of(call);
+        event.log();
+        event.result()
+    }
+}
+
+/// What the trigger is told.
+struct Event {
+    data: *mut pg_sys::TriggerData,
+    operation: u32,
+}
+
+impl Event {
+    fn of(call: pg_sys::FunctionCallInfo) -> Self {
+        // SAFETY: the context of a call, if any, is a node that says its kind.
+        let data = unsafe {
+            let context = (*call).context;
+            let is_trigger =
+                !context.is_null() && (*context).type_ == pg_sys::NodeTag::T_TriggerData;
+            is_trigger.then_some(context.cast::<pg_sys::TriggerData>())
+        };
+        let Some(data) = data else {
+            Refusal::new(
+                PgSqlErrorCode::ERRCODE_FEATURE_NOT_SUPPORTED,
+                "log_edit can only be called as a trigger",
+            )
+            .raise()
+        };
+        // SAFETY: a trigger's data is alive while it runs.
+        let operation = unsafe { (*data).tg_event } & pg_sys::TRIGGER_EVENT_OPMASK;
+        Self { data, operation }
+    }
+
+    fn log(&self) {
+        let Some(log) = Log::of(self.relation()) else {
+            return;
+        };
+        if self.operation == pg_sys::TRIGGER_EVENT_TRUNCATE {
+            log.drop_tiles();
+            return;
+        }
+        // SAFETY: a row trigger has the row, and an update the new one.
+        let (row, new) = unsafe { ((*self.data).tg_trigtuple, (*self.data).tg_newtuple) };
+        let rows = match self.operation {
+            pg_sys::TRIGGER_EVENT_UPDATE => [Some(row), Some(new)],
+            _ => [Some(row), None],
+        };
+        if self.is_of_feature() {
+            if self.operation == pg_sys::TRIGGER_EVENT_UPDATE && self.keeps_feature(row, new) {
+                return;
+            }
+            // Before the fact it is not known whether it comes to be.
+            let is_all_ours = self.is_after() && self.operation != pg_sys::TRIGGER_EVENT_UPDATE;
+            for row in rows.into_iter().flatten() {
+                let id: Option<i64> = self.value(row, c"id");
+                let place = self.value::<Box3d>(row, c"envelope");
+                if let Some((id, place)) = id.zip(place) {
+                    log.add_place(id, &place, is_all_ours);
+                }
+            }
+        } else {
+            for row in rows.into_iter().flatten() {
+                if let Some(id) = self.value(row, c"feature") {
+                    log.add_anywhere(id);
+                }
+            }
+        }
+    }
+
+    /// What the trigger returns: the row that goes on, which after the fact is nobody's business.
+    fn result(&self) -> *mut pg_sys::HeapTupleData {
+        // SAFETY: as in `log`; a statement trigger has no row.
+        unsafe {
+            match self.operation {
+                pg_sys::TRIGGER_EVENT_TRUNCATE => std::ptr::null_mut(),
+                pg_sys::TRIGGER_EVENT_UPDATE => (*self.data).tg_newtuple,
+                _ => (*self.data).tg_trigtuple,
+            }
+        }
+    }
+
+    fn is_after(&self) -> bool {
+        // SAFETY: a trigger's data is alive while it runs.
+        let event = unsafe { (*self.data).tg_event };
+        event & pg_sys::TRIGGER_EVENT_TIMINGMASK == pg_sys::TRIGGER_EVENT_AFTER
+    }
+
+    fn relation(&self) -> pg_sys::Relation {
+        // SAFETY: a trigger's data is alive while it runs.
+        unsafe { (*self.data).tg_relation }
+    }
+
+    /// Whether the table is `feature`, not one of what hides.
+    fn is_of_feature(&self) -> bool {
+        // SAFETY: the relation is open while its trigger runs; its name ends with a zero.
+        unsafe {
+            let name = &(*(*self.relation()).rd_rel).relname;
+            CStr::from_ptr(name.data.as_ptr()) == c"feature"
+        }
+    }
+
+    /// Whether an update leaves all that tiles hold of a feature as it is.
+    fn keeps_feature(&self, old: pg_sys::HeapTuple, new: pg_sys::HeapTuple) -> bool {
+        let held = |row| {
+            (
+                self.value::<i64>(row, c"id"),
+                self.value::<Box3d>(row, c"envelope").map(bits),
+                self.bytes(row, c"class", pg_sys::TEXTOID),
+                self.bytes(row, c"outline", pg_sys::POLYGONOID),
+            )
+        };
+        held(old) == held(new)
+    }
+
+    /// The value of a column; `None` if it is null, or there is no such column of that type.
+    fn value<T: FromDatum + IntoDatum>(&self, row: pg_sys::HeapTuple, column: &CStr) -> Option<T> {
+        let (datum, is_null) = self.datum(row, column, T::type_oid())?;
+        // SAFETY: the column is of that type.
+        unsafe { T::from_polymorphic_datum(datum, is_null, pg_sys::InvalidOid) }
+    }
+
+    /// The bytes of a value of variable length, packed as they are.
+    fn bytes(&self, row: pg_sys::HeapTuple, column: &CStr, type_oid: Oid) -> Option<Vec<u8>> {
+        let (datum, is_null) = self.datum(row, column, type_oid)?;
+        if is_null {
+            return None;
+        }
+        // SAFETY: such a value begins with its length.
+        unsafe {
+            let value = datum.cast_mut_ptr::<pg_sys::varlena>();
+            let length = pgrx::varsize_any(value);
+            Some(std::slice::from_raw_parts(value.cast::<u8>(), length).to_vec())
+        }
+    }
+
+    fn datum(&self, row: pg_sys::HeapTuple, column: &CStr, type_oid: Oid) -> Option<(Datum, bool)> {
+        // SAFETY: the row is one of the relation, which is open while its trigger runs.
+        unsafe {
+            let columns = (*self.relation()).rd_att;
+            let number = pg_sys::SPI_fnumber(columns, column.as_ptr());
+            if number <= 0 || pg_sys::SPI_gettypeid(columns, number) != type_oid {
+                return None;
+            }
+            let mut is_null = false;
+            let datum = pg_sys::SPI_getbinval(row, columns, number, &raw mut is_null);
+            Some((datum, is_null))
+        }
+    }
+}
+
+/// The log of a scene whose tiles are packed.
+struct Log {
+    scene: String,
+    edit: Oid,
+}
+
+impl Log {
+    /// That of the scene of a table; `None` where no tiles were ever packed, and where the table is a
+    /// part of another one, since tiles are not relied on then.
+    fn of(table: pg_sys::Relation) -> Option<Self> {
+        // SAFETY: the relation is open while its trigger runs.
+        let (namespace, is_part) = unsafe {
+            (
+                (*(*table).rd_rel).relnamespace,
+                (*(*table).rd_rel).relispartition,
+            )
+        };
+        let (tile, edit) = (relation(namespace, c"tile"), relation(namespace, c"edit"));
+        if is_part || tile == pg_sys::InvalidOid || !has_pages(tile) {
+            return None;
+        }
+        // SAFETY: the schema of an open relation has a name.
+        let scene = unsafe { CStr::from_ptr(pg_sys::get_namespace_name(namespace)) };
+        Some(Self {
+            scene: scene.to_string_lossy().into_owned(),
+            edit,
+        })
+    }
+
+    /// That a feature was, or is, in a place. `is_all_ours`: it was made or deleted, and what hides in
+    /// it is no longer, or not yet, anybody else's.
+    fn add_place(&self, feature: i64, place: &Box3d, is_all_ours: bool) {
+        if !remember(self.edit, feature, Some(bits(*place)), is_all_ours) {
+            let arguments = [feature.into_datum(), place.into_datum()];
+            self.write(Write::Place, &arguments);
+        }
+    }
+
+    /// That what hides in a feature was changed, wherever it is.
+    fn add_anywhere(&self, feature: i64) {
+        if !remember(self.edit, feature, None, false) {
+            self.write(Write::Anywhere, &[feature.into_datum()]);
+        }
+    }
+
+    /// That all may have gone.
+    fn drop_tiles(&self) {
+        self.write(Write::Truncate, &[]);
+        forget();
+    }
+
+    /// Writes as the log's owner, so that nobody who may edit can do so without a trace.
+    fn write(&self, write: Write, arguments: &[Option<Datum>]) {
+        let arguments: Vec<Datum> = arguments.iter().copied().flatten().collect();
+        as_owner_of(self.edit, || {
+            with_statement(&self.scene, self.edit, write, |statement| {
+                statement.read(Moment::Now, &arguments, |_| {});
+            });
+        });
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+enum Write {
+    Place,
+    Anywhere,
+    Truncate,
+}
+
+impl Write {
+    fn statement(self, scene: &str) -> Statement {
+        let scene = quoted(scene);
+        match self {
+            Self::Place => Statement::new(
+                &format!("INSERT INTO {scene}.edit (feature, place) VALUES ($1, $2)"),
+                &[pg_sys::INT8OID, Box3d::type_oid()],
+            ),
+            Self::Anywhere => Statement::new(
+                &format!("INSERT INTO {scene}.edit (feature) VALUES ($1)"),
+                &[pg_sys::INT8OID],
+            ),
+            Self::Truncate => Statement::new(&format!("TRUNCATE {scene}.tile, {scene}.edit"), &[]),
+        }
+    }
+}
+
+type Statements = HashMap<(String, Oid, Write), Statement>;
+
+thread_local! {
+    /// Planned once a backend; by the log's own number, since another scene may take its name.
+    static STATEMENTS: RefCell<Statements> = RefCell::new(HashMap::new());
+    static LOGGED: RefCell<HashMap<(Oid, i64), Logged>> = RefCell::new(HashMap::new());
+    static IS_TOLD: Cell<bool> = const { Cell::new(false) };
+}
+
+fn with_statement(scene: &str, edit: Oid, write: Write, run: impl FnOnce(&Statement)) {
+    let key = (scene.to_owned(), edit, write);
+    // Taken out while it runs: a trigger on the log may edit, too.
+    let kept = STATEMENTS.with_borrow_mut(|statements| statements.remove(&key));
+    let statement = kept.unwrap_or_else(|| write.statement(scene));
+    run(&statement);
+    let old = STATEMENTS.with_borrow_mut(|statements| statements.insert(key, statement));
+    old.into_iter().for_each(Statement::free);
+}
+
+/// Runs `work` with the rights of a table's owner, row security aside, as core does for foreign keys.
+fn as_owner_of(table: Oid, work: impl FnOnce()) {
+    let (mut user, mut context) = (pg_sys::InvalidOid, 0);
+    let rights = pg_sys::SECURITY_LOCAL_USERID_CHANGE | pg_sys::SECURITY_NOFORCE_RLS;
+    // SAFETY: an error on the way ends the transaction, which puts the user back itself.
+    unsafe {
+        pg_sys::GetUserIdAndSecContext(&raw mut user, &raw mut context);
+        pg_sys::SetUserIdAndSecContext(owner(table), context | rights.cast_signed());
+        work();
+        pg_sys::SetUserIdAndSecContext(user, context);
+    }
+}
+
+fn owner(table: Oid) -> Oid {
+    let lock = pg_sys::AccessShareLock as pg_sys::LOCKMODE;
+    // SAFETY: opens a table that was found in the catalog.
+    unsafe {
+        let open = pg_sys::relation_open(table, lock);
+        let owner = (*(*open).rd_rel).relowner;
+        pg_sys::relation_close(open, lock);
+        owner
+    }
+}
+
+fn bits(place: Box3d) -> [u64; 6] {
+    let [a, b] = [place.0.min, place.0.max].map(|corner| corner.to_array().map(f64::to_bits));
+    [a[0], a[1], a[2], b[0], b[1], b[2]]
+}
+
+/// What this transaction has logged of a feature.
+#[derive(Default)]
+struct Logged {
+    places: Vec<[u64; 6]>,
+    anywhere: bool,
+    is_all_ours: bool,
+}
+
+/// Remembers an entry of the log, `place` if it has one; returns whether one that says as much is there.
+fn remember(edit: Oid, feature: i64, place: Option<[u64; 6]>, is_all_ours: bool) -> bool {
+    forget_in_time();
+    LOGGED.with_borrow_mut(|all| {
+        if all.len() >= MOST_REMEMBERED {
+            all.clear();
+        }
+        let logged = all.entry((edit, feature)).or_default();
+        logged.is_all_ours |= is_all_ours;
+        match place {
+            None if logged.is_all_ours => true,
+            None => std::mem::replace(&mut logged.anywhere, true),
+            Some(place) if logged.places.contains(&place) => true,
+            Some(place) => {
+                if logged.places.len() < MOST_PLACES {
+                    logged.places.push(place);
+                }
+                false
+            }
+        }
+    })
+}
+
+/// Forgets what was logged: it is gone from the log, or may be.
+pub fn forget() {
+    LOGGED.with_borrow_mut(HashMap::clear);
+}
+
+/// Sees to it that the end of a transaction, and of a part of one that failed, makes it forget.
+fn forget_in_time() {
+    if IS_TOLD.replace(true) {
+        return;
+    }
+    // SAFETY: both functions stay where they are, as the library does.
+    unsafe {
+        pg_sys::RegisterXactCallback(Some(transaction_ends), std::ptr::null_mut());
+        pg_sys::RegisterSubXactCallback(Some(subtransaction_ends), std::ptr::null_mut());
+    }
+}
+
+unsafe extern "C-unwind" fn transaction_ends(_: pg_sys::XactEvent::Type, _: *mut c_void) {
+    forget();
+}
+
+unsafe extern "C-unwind" fn subtransaction_ends(
+    event: pg_sys::SubXactEvent::Type,
+    _: pg_sys::SubTransactionId,
+    _: pg_sys::SubTransactionId,
+    _: *mut c_void,
+) {
+    if event == pg_sys::SubXactEvent::SUBXACT_EVENT_ABORT_SUB {
+        forget();
+    }
+}

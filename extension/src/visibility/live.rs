@@ -1,0 +1,166 @@
+//! What can be seen, found by the solver while the query runs.
+
+use super::statements::{Ask, Statements};
+use super::tables::Tables as SceneTables;
+use super::tiles::Tiles;
+use crate::error::{Refusal, or_raise};
+use crate::field_of_view::FieldOfView;
+use crate::snapshot_read::Moment;
+use crate::types::{Point3d, shortest};
+use engine::{PointQuery, PointSolver, Sighting};
+use glam::DVec3;
+use pgrx::{IntoDatum, PgSqlErrorCode};
+use std::cell::RefCell;
+use std::collections::HashSet;
+
+/// Metres by which the box that preselects all round is larger than the range, so that its rounding
+/// loses nothing in range.
+const RANGE_MARGIN: f64 = 1e-3;
+
+thread_local! {
+    /// Its memory is kept from one query to the next.
+    static SOLVER: RefCell<PointSolver> = RefCell::new(PointSolver::default());
+}
+
+/// What an observer asks.
+pub struct View {
+    eye: DVec3,
+    range: f64,
+    /// `None` all round.
+    field: Option<FieldOfView>,
+}
+
+/// A feature that may be seen.
+pub struct Seen {
+    pub id: i64,
+    pub class: String,
+    pub envelope: engine::Box3d,
+    /// Metres from the eye.
+    pub distance: f64,
+}
+
+/// How an answer came about.
+#[derive(Default)]
+pub struct Account {
+    pub tiles: usize,
+    pub read: usize,
+    pub cached: usize,
+    pub edited: usize,
+    /// Features within range above the horizon.
+    pub above: usize,
+    /// Of these, in the field of view.
+    pub in_view: usize,
+    /// Of these, hidden by occlusion volumes.
+    pub hidden: usize,
+}
+
+impl View {
+    /// All round.
+    pub fn all_round(eye: DVec3, range: f64) -> Self {
+        Self {
+            eye,
+            range,
+            field: None,
+        }
+    }
+
+    /// What a field of view holds.
+    pub fn of(field: FieldOfView) -> Self {
+        let (eye, range) = field.eye_and_range();
+        Self {
+            eye,
+            range,
+            field: Some(field),
+        }
+    }
+
+    /// A box that holds all of it.
+    fn bounds(&self) -> engine::Box3d {
+        let reach = DVec3::splat(self.range + RANGE_MARGIN);
+        let most = DVec3::splat(f64::MAX);
+        engine::Box3d {
+            min: (self.eye - reach).max(-most),
+            max: (self.eye + reach).min(most),
+        }
+    }
+
+    /// The features of a scene that may be seen in it, and how they were found.
+    pub fn look(&self, scene: &str) -> (Vec<Seen>, Account) {
+        let mut tiles = Tiles::around(scene, &self.bounds());
+        let sightings = or_raise(self.solve(&mut tiles));
+        let mut account = Account {
+            above: sightings.len(),
+            cached: tiles.cached,
+            edited: tiles.edited(),
+            ..Account::default()
+        };
+        (account.tiles, account.read) = tiles.counts();
+        let prepared = self.field.map(|field| field.prepared());
+        let mut seen: Vec<Seen> = sightings
+            .iter()
+            .filter_map(|sighting| seen_in(&tiles, sighting))
+            .filter(|seen| prepared.is_none_or(|field| field.meets(&seen.envelope)))
+            .collect();
+        account.in_view = seen.len();
+        if !seen.is_empty() {
+            let hidden = hidden_by_volumes(scene, self.eye);
+            seen.retain(|seen| !hidden.contains(&seen.id));
+        }
+        account.hidden = account.in_view - seen.len();
+        (seen, account)
+    }
+
+    fn solve(&self, tiles: &mut Tiles) -> Result<Vec<Sighting>, Refusal> {
+        let query = PointQuery {
+            eye: self.eye,
+            range: self.range,
+            prisms: true,
+        };
+        let mut sightings = Vec::new();
+        // Taken out while it works: an error while tiles are read unwinds, and leaves a new one.
+        let mut solver = SOLVER.take();
+        solver.solve(&query, tiles, &mut sightings)?;
+        SOLVER.set(solver);
+        Ok(sightings)
+    }
+}
+
+fn seen_in(tiles: &Tiles, sighting: &Sighting) -> Option<Seen> {
+    let tile = tiles.get(sighting.tile)?;
+    let (id, envelope) = tile.tile.feature(sighting.feature);
+    Some(Seen {
+        id,
+        class: tile.class(sighting.feature).to_owned(),
+        envelope,
+        distance: sighting.distance,
+    })
+}
+
+/// The features that occlusion volumes hide from an eye.
+fn hidden_by_volumes(scene: &str, eye: DVec3) -> HashSet<i64> {
+    let mut hidden = HashSet::new();
+    let tables = SceneTables::of(scene);
+    if tables.has_volumes() {
+        let eye = Point3d(eye).into_datum().into_iter().collect::<Vec<_>>();
+        let statements = Statements::of(scene, &tables);
+        statements
+            .get(Ask::Hidden)
+            .read(Moment::Query, &eye, |row| {
+                hidden.extend(row.get::<i64>(1));
+            });
+    }
+    hidden
+}
+
+/// A range that is finite and not negative; others raise an error.
+pub fn checked_range(range: f64) -> f64 {
+    if range >= 0.0 && range < f64::INFINITY {
+        return range;
+    }
+    Refusal::new(
+        PgSqlErrorCode::ERRCODE_INVALID_PARAMETER_VALUE,
+        format!("range {} is out of bounds", shortest(range)),
+    )
+    .detail("A range is a finite number of metres, 0 or more.")
+    .raise()
+}

@@ -1,0 +1,147 @@
+//! [`Statements`], what visibility queries read of one scene, each planned once a backend.
+
+use super::tables::Tables;
+use crate::scene::{failed, quoted};
+use crate::snapshot_read::Statement;
+use crate::types::Box3d;
+use pgrx::IntoDatum;
+use pgrx::pg_sys::{self, Oid};
+use std::cell::{OnceCell, RefCell};
+use std::collections::HashMap;
+use std::rc::Rc;
+
+/// Scenes whose statements are kept. Few backends ask more.
+const MOST_SCENES: usize = 32;
+
+thread_local! {
+    static KEPT: RefCell<HashMap<(String, Oid), Rc<Statements>>> = RefCell::new(HashMap::new());
+}
+
+/// Statements on one scene.
+pub struct Statements {
+    /// Quoted.
+    scene: String,
+    cells: [OnceCell<Statement>; Ask::COUNT],
+}
+
+/// What can be asked.
+#[derive(Clone, Copy)]
+pub enum Ask {
+    /// Id, bounds and version of the tiles that meet a box.
+    Tiles,
+    /// Whether there is any tile.
+    AnyTile,
+    /// Content of the tile with an id.
+    Content,
+    /// Features edited since the tiles were packed, in a box or anywhere.
+    Edits,
+    /// Id, class, envelope and outline of the features that meet a box.
+    FeaturesNear,
+    /// The same of the features with some ids.
+    FeaturesOf,
+    /// Feature, footprint, bottom and top of the grounded columns of some features.
+    Columns,
+    /// Feature and box of the grounded inner envelopes of some features.
+    InnerEnvelopes,
+    /// Features that occlusion volumes hide from an eye.
+    Hidden,
+}
+
+impl Ask {
+    const COUNT: usize = Self::Hidden as usize + 1;
+
+    /// The statement, for a scene whose name is quoted, and the types of its parameters. Columns are
+    /// cast to the types that they are read as.
+    fn text(self, scene: &str) -> String {
+        let features = format!(
+            "SELECT id::pg_catalog.int8, class::pg_catalog.text, envelope::occlusion.box3d, \
+                    outline::pg_catalog.polygon FROM {scene}.feature"
+        );
+        match self {
+            Self::Tiles => format!(
+                "SELECT id::pg_catalog.int8, bounds::occlusion.box3d, version::pg_catalog.uuid \
+                 FROM {scene}.tile WHERE bounds OPERATOR(occlusion.&&) $1"
+            ),
+            Self::AnyTile => format!("SELECT 1 FROM {scene}.tile LIMIT 1"),
+            Self::Content => format!(
+                "SELECT content::pg_catalog.bytea FROM {scene}.tile \
+                 WHERE id OPERATOR(pg_catalog.=) $1"
+            ),
+            Self::Edits => format!(
+                "SELECT feature::pg_catalog.int8 FROM {scene}.edit \
+                 WHERE place OPERATOR(occlusion.&&) $1 \
+                 UNION ALL \
+                 SELECT feature::pg_catalog.int8 FROM {scene}.edit WHERE place IS NULL"
+            ),
+            Self::FeaturesNear => format!("{features} WHERE envelope OPERATOR(occlusion.&&) $1"),
+            Self::FeaturesOf => format!("{features} WHERE id OPERATOR(pg_catalog.=) ANY ($1)"),
+            Self::Columns => format!(
+                "SELECT feature::pg_catalog.int8, footprint::pg_catalog.polygon[], \
+                        bottom::pg_catalog.float8, top::pg_catalog.float8 \
+                 FROM {scene}.solid_column \
+                 WHERE feature OPERATOR(pg_catalog.=) ANY ($1) AND grounded"
+            ),
+            Self::InnerEnvelopes => format!(
+                "SELECT feature::pg_catalog.int8, box::occlusion.box3d FROM {scene}.inner_envelope \
+                 WHERE feature OPERATOR(pg_catalog.=) ANY ($1) AND grounded"
+            ),
+            Self::Hidden => hidden_statement(scene),
+        }
+    }
+
+    fn parameters(self) -> Vec<Oid> {
+        match self {
+            Self::AnyTile => Vec::new(),
+            Self::Content => vec![pg_sys::INT8OID],
+            Self::FeaturesOf | Self::Columns | Self::InnerEnvelopes => vec![pg_sys::INT8ARRAYOID],
+            Self::Tiles | Self::Edits | Self::FeaturesNear => vec![Box3d::type_oid()],
+            Self::Hidden => vec![crate::types::Point3d::type_oid()],
+        }
+    }
+}
+
+impl Statements {
+    /// Those of a scene. Planned anew when another schema has taken its name.
+    pub fn of(scene: &str, tables: &Tables) -> Rc<Self> {
+        KEPT.with_borrow_mut(|kept| {
+            let key = (scene.to_owned(), tables.namespace());
+            if kept.len() >= MOST_SCENES && !kept.contains_key(&key) {
+                kept.drain().for_each(|(_, statements)| statements.free());
+            }
+            let new = || {
+                Rc::new(Self {
+                    scene: quoted(scene),
+                    cells: [const { OnceCell::new() }; Ask::COUNT],
+                })
+            };
+            Rc::clone(kept.entry(key).or_insert_with(new))
+        })
+    }
+
+    /// One of them.
+    pub fn get(&self, ask: Ask) -> &Statement {
+        self.cells[ask as usize]
+            .get_or_init(|| Statement::new(&ask.text(&self.scene), &ask.parameters()))
+    }
+
+    /// Forgets them, unless a query that is under way has them in hand.
+    fn free(self: Rc<Self>) {
+        if let Ok(statements) = Rc::try_unwrap(self) {
+            let kept = statements
+                .cells
+                .into_iter()
+                .filter_map(OnceCell::into_inner);
+            kept.for_each(Statement::free);
+        }
+    }
+}
+
+/// What `sql/70_queries.sql` has for it.
+fn hidden_statement(scene: &str) -> String {
+    let text = pgrx::Spi::get_one_with_args::<String>(
+        "SELECT occlusion.hidden_features_statement($1)",
+        &[scene.into()],
+    );
+    let text = text.unwrap_or_else(|error| failed(&error));
+    text.unwrap_or_else(|| unreachable!("the statement of a scene is text"))
+}

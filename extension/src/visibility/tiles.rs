@@ -1,0 +1,163 @@
+//! [`Tiles`], where the solver reads the features around an eye.
+
+use super::base;
+use super::cache::{self, Version};
+use super::packed_tile::PackedTile;
+use super::statements::{Ask, Statements};
+use super::tables::Tables as SceneTables;
+use crate::error::Refusal;
+use crate::snapshot_read::Moment;
+use crate::types::Box3d;
+use engine::{Tile, TileSource};
+use pgrx::pg_sys::Datum;
+use pgrx::{IntoDatum, PgSqlErrorCode, Uuid};
+use std::collections::HashSet;
+use std::rc::Rc;
+
+/// The tiles that meet a box, under the snapshot of the query: packed ones, read when they are needed,
+/// and one of the features that were edited since.
+pub struct Tiles {
+    statements: Rc<Statements>,
+    bounds: Vec<engine::Box3d>,
+    /// As `bounds`, but for what was read from the tables of the scene, which comes last.
+    packed: Vec<(i64, Version)>,
+    tiles: Vec<Option<Rc<PackedTile>>>,
+    edited: HashSet<i64>,
+    /// Tiles that were found in the cache.
+    pub cached: usize,
+}
+
+impl Tiles {
+    /// Those around an eye. Where tiles may not be relied on, all is read from the tables.
+    pub fn around(scene: &str, bounds: &engine::Box3d) -> Self {
+        let tables = SceneTables::of(scene);
+        let mut tiles = Self {
+            statements: Statements::of(scene, &tables),
+            bounds: Vec::new(),
+            packed: Vec::new(),
+            tiles: Vec::new(),
+            edited: HashSet::new(),
+            cached: 0,
+        };
+        if tables.has_tiles() && tables.are_watched() && tables.may_read_all() {
+            tiles.find(bounds);
+            if !tiles.packed.is_empty() || tiles.is_packed() {
+                if tables.has_edits() {
+                    tiles.add_edits(bounds);
+                }
+                return tiles;
+            }
+        }
+        let features = base::near(&tiles.statements, Moment::Query, bounds);
+        tiles.add(PackedTile::new(features));
+        tiles
+    }
+
+    /// Whether all features are in tiles or in the log of edits: a transaction that packs a scene packs
+    /// all of it, so whoever sees one tile sees all.
+    fn is_packed(&self) -> bool {
+        let mut is = false;
+        let any = self.statements.get(Ask::AnyTile);
+        any.read(Moment::Query, &[], |_| is = true);
+        is
+    }
+
+    fn find(&mut self, bounds: &engine::Box3d) {
+        let statements = Rc::clone(&self.statements);
+        let tiles = statements.get(Ask::Tiles);
+        tiles.read(Moment::Query, &argument(Box3d(*bounds)), |row| {
+            let version = row.get::<Uuid>(3).map(|uuid| *uuid.as_bytes());
+            let head = row.get::<i64>(1).zip(version);
+            if let Some((head, bounds)) = head.zip(row.get::<Box3d>(2)) {
+                self.packed.push(head);
+                self.bounds.push(bounds.0);
+            }
+        });
+        self.tiles = vec![None; self.packed.len()];
+    }
+
+    /// Edited features count as the tables have them, wherever tiles have them.
+    fn add_edits(&mut self, bounds: &engine::Box3d) {
+        let statements = Rc::clone(&self.statements);
+        let edits = statements.get(Ask::Edits);
+        edits.read(Moment::Query, &argument(Box3d(*bounds)), |row| {
+            self.edited.extend(row.get::<i64>(1));
+        });
+        if !self.edited.is_empty() {
+            let ids: Vec<i64> = self.edited.iter().copied().collect();
+            let features = base::of(&statements, Moment::Query, &ids);
+            self.add(PackedTile::new(features));
+        }
+    }
+
+    fn add(&mut self, tile: PackedTile) {
+        if let Some(bounds) = tile.tile.bounds() {
+            self.bounds.push(bounds);
+            self.tiles.push(Some(Rc::new(tile)));
+        }
+    }
+
+    fn load(&mut self, position: usize) -> Result<Rc<PackedTile>, Refusal> {
+        let (id, version) = self.packed[position];
+        if let Some(tile) = cache::find(&version) {
+            self.cached += 1;
+            return Ok(tile);
+        }
+        let mut read = None;
+        let content = self.statements.get(Ask::Content);
+        content.read(Moment::Query, &argument(id), |row| {
+            read = row.get::<&[u8]>(1).map(PackedTile::from_bytes);
+        });
+        let missing = || {
+            Refusal::new(
+                PgSqlErrorCode::ERRCODE_DATA_CORRUPTED,
+                format!("content of tile {id} is missing"),
+            )
+        };
+        let tile = Rc::new(read.ok_or_else(missing)??);
+        cache::keep(version, &tile);
+        Ok(tile)
+    }
+
+    /// The features in a tile that was read, with their classes.
+    pub fn get(&self, position: usize) -> Option<&PackedTile> {
+        self.tiles[position].as_deref()
+    }
+
+    /// How many tiles there are, and how many of them were needed.
+    pub fn counts(&self) -> (usize, usize) {
+        let read = self.tiles.iter().flatten().count();
+        (self.tiles.len(), read)
+    }
+
+    /// How many features were edited since the tiles were packed.
+    pub fn edited(&self) -> usize {
+        self.edited.len()
+    }
+}
+
+impl TileSource for Tiles {
+    type Error = Refusal;
+
+    fn bounds(&self) -> &[engine::Box3d] {
+        &self.bounds
+    }
+
+    fn tile(&mut self, position: usize) -> Result<&Tile, Refusal> {
+        if self.tiles[position].is_none() {
+            self.tiles[position] = Some(self.load(position)?);
+        }
+        match &self.tiles[position] {
+            Some(tile) => Ok(&tile.tile),
+            None => unreachable!("it was loaded"),
+        }
+    }
+
+    fn is_outdated(&self, tile: usize, feature: i64) -> bool {
+        tile < self.packed.len() && !self.edited.is_empty() && self.edited.contains(&feature)
+    }
+}
+
+fn argument(value: impl IntoDatum) -> Vec<Datum> {
+    value.into_datum().into_iter().collect()
+}

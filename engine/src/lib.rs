@@ -35,7 +35,7 @@ pub use convex_pieces::{ConvexPieceOptions, convex_pieces};
 pub use convex_prism::ConvexPrism;
 pub use feature_set::{FeatureSet, MOST_IN_SET, MalformedSet, OversizedSet, SetCollector};
 pub use field_of_view::{
-    Camera, DepthRange, Frustum, MatrixDefect, ViewCone, ViewSector, in_range,
+    Camera, DepthRange, Frustum, MatrixDefect, PlanWedge, ViewCone, ViewSector, in_range,
 };
 pub use hilbert::{hilbert_key, plan_key};
 pub use mesh::{

@@ -1,6 +1,6 @@
 //! [`Frustum`], the pyramid, cut off in front, that a [`Camera`] sees.
 
-use super::{Camera, RELATIVE_TOLERANCE, near_part};
+use super::{Camera, PlanWedge, RELATIVE_TOLERANCE, near_part};
 use crate::Box3d;
 use glam::DVec3;
 
@@ -17,6 +17,7 @@ const AXES: usize = 5 + 3 + 6 * 3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frustum {
     eye: DVec3,
+    plan_wedge: Option<PlanWedge>,
     /// Distance of the farthest corner from the eye.
     reach: f64,
     /// Slack by metre of a box's distance: wide images have rays whose rounding counts for more.
@@ -35,11 +36,18 @@ impl Frustum {
         let longest = rays.map(DVec3::length).into_iter().fold(1.0, f64::max);
         Some(Self {
             eye: camera.eye,
+            plan_wedge: PlanWedge::holding(&rays.map(DVec3::truncate)),
             reach: camera.far * longest,
             tolerance: RELATIVE_TOLERANCE * longest,
             slabs: separating_axes(axes, &rays)
                 .map(|axis| Slab::around(axis, &rays, camera.near, camera.far)),
         })
+    }
+
+    /// The directions in plan that it holds; `None` if these are all, or may be.
+    #[must_use]
+    pub fn plan_wedge(&self) -> Option<PlanWedge> {
+        self.plan_wedge
     }
 
     /// Distance of the farthest corner from the eye, metres.

@@ -5,12 +5,14 @@
 
 mod camera;
 mod frustum;
+mod plan_wedge;
 mod view_cone;
 mod view_projection;
 mod view_sector;
 
 pub use camera::Camera;
 pub use frustum::Frustum;
+pub use plan_wedge::PlanWedge;
 pub use view_cone::ViewCone;
 pub use view_projection::{DepthRange, MatrixDefect};
 pub use view_sector::ViewSector;

@@ -1,6 +1,6 @@
 //! [`ViewCone`], a circular cone with a range.
 
-use super::{RELATIVE_TOLERANCE, near_part, within};
+use super::{PlanWedge, RELATIVE_TOLERANCE, near_part, within};
 use crate::Box3d;
 use glam::{DMat3, DVec3};
 
@@ -38,6 +38,16 @@ impl ViewCone {
             half_sin: (angle / 2.0).sin(),
             range,
         }
+    }
+
+    /// The directions in plan that it holds; `None` if these are all, or may be.
+    #[must_use]
+    pub fn plan_wedge(&self) -> Option<PlanWedge> {
+        let level = self.axis.truncate().length();
+        let is_aside = self.half_cos > 0.0 && self.half_sin < level;
+        is_aside
+            .then(|| (self.half_sin / level).asin())
+            .and_then(|half| PlanWedge::around(self.axis.x.atan2(self.axis.y), half))
     }
 
     /// Whether cone and box share a point.

@@ -1,6 +1,6 @@
 //! [`ViewSector`], the field of view of the 2004 report: a horizontal sector of any pitch.
 
-use super::{RELATIVE_TOLERANCE, near_part, within};
+use super::{PlanWedge, RELATIVE_TOLERANCE, near_part, within};
 use crate::Box3d;
 use glam::{DVec2, DVec3};
 use std::f64::consts::FRAC_PI_2;
@@ -16,6 +16,7 @@ pub struct ViewSector {
     eye: DVec3,
     /// The sector as one or two convex wedges.
     wedges: [Option<Wedge>; 2],
+    plan_wedge: Option<PlanWedge>,
     range: f64,
 }
 
@@ -30,7 +31,18 @@ impl ViewSector {
         } else {
             [-half, half].map(|turn| Some(Wedge::new(heading + turn / 2.0, half / 2.0)))
         };
-        Self { eye, wedges, range }
+        Self {
+            eye,
+            wedges,
+            plan_wedge: PlanWedge::around(heading, half),
+            range,
+        }
+    }
+
+    /// The directions in plan that it holds; `None` if these are all, or may be.
+    #[must_use]
+    pub fn plan_wedge(&self) -> Option<PlanWedge> {
+        self.plan_wedge
     }
 
     /// Whether sector and box share a point.

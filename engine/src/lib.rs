@@ -44,7 +44,8 @@ pub use mesh::{
 };
 pub use outer_prism::OuterPrism;
 pub use point_visibility::{
-    PointQuery, PointSolver, Sighting, Tile, TileFeature, TileSource, visible_from_point,
+    AzimuthRange, Extents, Hider, PointQuery, PointSolver, PointTarget, Sighting, Tile,
+    TileFeature, TileSource, visible_from_point,
 };
 pub use shadow_region::ShadowRegion;
 pub use solid::{Hides, Repair, Solid};

@@ -5,7 +5,10 @@
 //! to its top are linear in `t`. So the horizon, the highest slope below which all is hidden, is an
 //! upper envelope of straight pieces, kept exactly: no raster, and no trigonometry.
 
+mod extent;
+mod hidden_by;
 mod horizon;
+mod isovist;
 mod occluder;
 mod projection;
 mod solver;
@@ -13,6 +16,8 @@ mod target;
 mod tile;
 mod tree;
 
+pub use extent::{AzimuthRange, Extents};
+pub use hidden_by::{Hider, PointTarget};
 pub use solver::{PointQuery, PointSolver, Sighting, TileSource, visible_from_point};
 pub use tile::{Tile, TileFeature};
 

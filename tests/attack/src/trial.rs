@@ -64,9 +64,9 @@ impl AddAssign for Counts {
 pub struct Trial {
     number: u64,
     rng: Rng,
-    scene: Scene,
-    features: Vec<TileFeature>,
-    judged: Vec<JudgedFeature>,
+    pub scene: Scene,
+    pub features: Vec<TileFeature>,
+    pub judged: Vec<JudgedFeature>,
     pub counts: Counts,
     pub findings: Vec<Finding>,
 }

@@ -24,6 +24,9 @@ const AZIMUTH_MARGIN: f64 = 1e-12;
 /// place grows by up to twice the angle.
 const TOUCH: f64 = 4.0 * AZIMUTH_MARGIN;
 
+/// Points of a façade that are no farther apart are one, metres.
+const FACADE_STEP: f64 = 1e-6;
+
 /// A range of directions in plan in which a feature may be seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AzimuthRange<'a> {
@@ -409,10 +412,15 @@ fn facade(corners: &[DVec2], from: DVec2, to: DVec2, mut found: impl FnMut(DVec2
         nearest.into_iter().for_each(found);
         return;
     };
-    let edges = (first..first + count).take_while(|&at| is_near(at));
-    let mut has_begun = false;
-    let mut end = corners[first];
-    for at in edges {
+    let mut last = None;
+    let mut add = |point: DVec2| {
+        if last.is_none_or(|last: DVec2| (point - last).length() > FACADE_STEP) {
+            last = Some(point);
+            found(point);
+        }
+    };
+    let (mut has_begun, mut end) = (false, corners[first]);
+    for at in (first..first + count).take_while(|&at| is_near(at)) {
         let (a, b) = (corners[at % count], corners[(at + 1) % count]);
         end = b;
         if from.perp_dot(b) > 0.0 {
@@ -420,15 +428,15 @@ fn facade(corners: &[DVec2], from: DVec2, to: DVec2, mut found: impl FnMut(DVec2
         }
         if !has_begun {
             has_begun = true;
-            found(crossing(a, b, from));
+            add(crossing(a, b, from));
         }
         if to.perp_dot(b) <= 0.0 {
             end = crossing(a, b, to);
             break;
         }
-        found(b);
+        add(b);
     }
-    found(end);
+    add(end);
 }
 
 /// Where an edge crosses a direction, or the end that is nearer to it.

@@ -204,13 +204,24 @@ fn judge(
     tiles: &mut Tiles,
 ) {
     let mut totals = [[0usize; 3]; 2];
+    let mut directions = [0usize; 3];
+    let mut extents = Extents::default();
     for &eye in eyes {
         let near: Vec<&TileFeature> = features
             .iter()
             .filter(|f| f.envelope.distance_to_point(eye) <= range)
             .collect();
         for (prisms, total) in [false, true].into_iter().zip(&mut totals) {
-            let truth = seen_by_rays(&near, eye, prisms);
+            let rays = seen_by_rays(&near, eye, prisms);
+            if prisms {
+                let query = PointQuery { eye, range, prisms };
+                let Ok(()) = solver.visible_extent(&query, tiles, &mut extents);
+                let said = rays_in_ranges(&extents, tiles);
+                directions[0] += said.len();
+                directions[1] += rays.len();
+                directions[2] += rays.difference(&said).count();
+            }
+            let truth: HashSet<i64> = rays.into_iter().map(|(_, id)| id).collect();
             let answer: HashSet<i64> = answer(solver, tiles, eye, range, prisms)
                 .into_iter()
                 .collect();
@@ -219,7 +230,8 @@ fn judge(
             total[2] += truth.difference(&answer).count();
         }
     }
-    for (name, [returned, visible, missed]) in ["box", "prism"].into_iter().zip(totals) {
+    let all = totals.into_iter().chain([directions]);
+    for (name, [returned, visible, missed]) in ["box", "prism", "direction"].into_iter().zip(all) {
         println!(
             "{name} truth by {RAYS} rays, {} eyes: returned {returned}, visible {visible}, missed \
              {missed}, Q {:.4}",
@@ -229,8 +241,23 @@ fn judge(
     }
 }
 
-/// Features whose box or prism some ray can see past the columns.
-fn seen_by_rays(near: &[&TileFeature], eye: DVec3, prisms: bool) -> HashSet<i64> {
+/// Rays in the ranges of features, with the features.
+fn rays_in_ranges(extents: &Extents, tiles: &Tiles) -> HashSet<(i64, i64)> {
+    let mut found = HashSet::new();
+    for (sighting, ranges) in extents.iter() {
+        let (id, _) = tiles.tiles[sighting.tile].feature(sighting.feature);
+        for range in ranges {
+            // Rays are anticlockwise from +x, each in the middle of its share.
+            let at = |azimuth: f64| (TAU / 4.0 - azimuth) / TAU * RAYS as f64 - 0.5;
+            let rays = at(range.to).ceil() as i64..=at(range.from).floor() as i64;
+            found.extend(rays.map(|ray| (ray.rem_euclid(RAYS as i64), id)));
+        }
+    }
+    found
+}
+
+/// Rays that can see a feature's box or prism past the columns, with the features.
+fn seen_by_rays(near: &[&TileFeature], eye: DVec3, prisms: bool) -> HashSet<(i64, i64)> {
     let mut by_ray: Vec<Vec<u32>> = vec![Vec::new(); RAYS];
     for (at, feature) in near.iter().enumerate() {
         let (middle, half) = azimuths(&feature.envelope, eye);
@@ -268,7 +295,7 @@ fn seen_by_rays(near: &[&TileFeature], eye: DVec3, prisms: bool) -> HashSet<i64>
                 .iter()
                 .all(|&(d, s, of)| of == at || d >= place || s <= slope);
             if is_clear {
-                seen.insert(feature.id);
+                seen.insert((ray as i64, feature.id));
             }
         }
     }

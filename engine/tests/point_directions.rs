@@ -208,6 +208,20 @@ fn beside_a_prism_it_is_on_one_side_though_its_box_is_all_around() {
     assert!(is_near(&found, &[(first, last)]), "{found:?}");
 }
 
+/// A wall that is nearer than the outline of its own feature, but for a millimetre.
+#[test]
+fn a_column_that_sticks_out_of_its_outline_does_not_hide_its_feature() {
+    let mut feature = house(1, [-5.0, 9.999], [5.0, 20.0], 5.0);
+    feature.outline = [[-5.0, 10.0], [5.0, 10.0], [5.0, 20.0], [-5.0, 20.0]]
+        .map(|at| DVec2::from_array(at) + PLACE)
+        .to_vec();
+    let mut scene = Scene::new(&[feature]);
+    let half = 5.0_f64.atan2(10.0);
+    let found = scene.ranges(1, eye(0.0, 0.0, 1.75));
+    assert!(is_near(&found, &[(TAU - half, TAU + half)]), "{found:?}");
+    assert_eq!(scene.ranges(1, eye(0.0, 0.0, 9.0)).len(), 1);
+}
+
 #[test]
 fn from_above_one_sees_a_lower_house_where_it_stands_out_behind() {
     let mut scene = Scene::new(&[

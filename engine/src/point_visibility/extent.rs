@@ -188,11 +188,16 @@ impl Walker for Extents {
         let is_beside = depth(query.eye, &feature.envelope) > EYE_MARGIN
             || is_beside(&self.corners[corners.clone()]);
         let height = feature.envelope.max.z - query.eye.z;
-        let is_known = is_beside && self.follow(corners.clone(), height);
+        let farthest = match is_beside {
+            true => self.follow(corners.clone(), height),
+            false => None,
+        };
+        // No feature hides itself, though its columns may stick out of its outline by roundings.
+        solver.take_walls(query.eye, tile, position, farthest.unwrap_or(0.0));
         self.met.push(Met {
             sighting,
             corners,
-            surrounds: !is_known,
+            surrounds: farthest.is_none(),
         });
     }
 }
@@ -236,11 +241,14 @@ impl Extents {
     }
 
     /// Takes the lines of the next feature, each to be compared with the walls that are nearer than
-    /// all that is seen at its places. Returns whether they bound it.
-    fn follow(&mut self, corners: Range<usize>, height: f64) -> bool {
+    /// all that is seen at its places. Returns the depth at which the last of them is; none if they do
+    /// not bound the feature.
+    fn follow(&mut self, corners: Range<usize>, height: f64) -> Option<f64> {
         let corners = &self.corners[corners];
         let (met, lines, open) = (self.met.len(), &mut self.lines, &mut self.open);
+        let mut farthest = 0.0_f64;
         let mut add = |slopes: Span, depth: f64| {
+            farthest = farthest.max(depth);
             open.push(ByDepth {
                 depth,
                 item: lines.len(),
@@ -253,21 +261,21 @@ impl Extents {
             if height >= 0.0 {
                 // The near edges have the highest slopes, and all else is behind them.
                 cut(inverse_depth, |part| {
-                    add(part.scaled(height), 1.0 / part.highest());
+                    add(part.scaled(height), least_depth(part.highest()));
                 });
             }
             ControlFlow::Continue(())
         })
         .is_continue();
-        if height >= 0.0 || !is_bounded {
-            return is_bounded;
-        }
         // The far ones have; what they are compared with must be before all of the feature.
-        outline_slopes(corners, height, |slopes| {
-            add(*slopes, 1.0 / nearest);
-            ControlFlow::Continue(())
-        })
-        .is_continue()
+        let is_bounded = is_bounded
+            && (height >= 0.0
+                || outline_slopes(corners, height, |slopes| {
+                    add(*slopes, least_depth(nearest));
+                    ControlFlow::Continue(())
+                })
+                .is_continue());
+        is_bounded.then_some(farthest)
     }
 
     /// Makes ranges of azimuths of what was seen.
@@ -349,6 +357,11 @@ fn is_beside(corners: &[DVec2]) -> bool {
         from = to;
         edge.facing() == Facing::Right && distance > EYE_MARGIN
     })
+}
+
+/// The depth of the greatest inverse depth of a line, or 0 if that is not known.
+fn least_depth(greatest: f64) -> f64 {
+    if greatest > 0.0 { 1.0 / greatest } else { 0.0 }
 }
 
 /// Cuts the inverse depth of an edge into parts of about one depth.

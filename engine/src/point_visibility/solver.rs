@@ -177,7 +177,7 @@ impl PointSolver {
         }
     }
 
-    /// A feature whose envelope is not hidden: takes its walls and gives it back, unless its prism is.
+    /// A feature whose envelope is not hidden, unless its prism is.
     pub(super) fn meet(
         &mut self,
         query: &PointQuery,
@@ -197,24 +197,28 @@ impl PointSolver {
                 return None;
             }
         }
+        Some(Sighting {
+            tile: tile_position,
+            feature: position,
+            distance: feature.envelope.distance_to_point(query.eye),
+        })
+    }
+
+    /// Takes the walls of a feature; they join the horizon when the walk has passed them and a depth.
+    pub(super) fn take_walls(&mut self, eye: DVec3, tile: &Tile, position: usize, beyond: f64) {
         let (walls, pending, horizon) = (&mut self.walls, &mut self.pending, &self.horizon);
         let found = &mut |wall: Wall| {
             if horizon.covers(&wall.slopes) {
                 return;
             }
             pending.push(ByDepth {
-                depth: wall.depth,
+                depth: wall.depth.max(beyond),
                 item: walls.len(),
             });
             walls.push(wall);
         };
-        self.finder
-            .walls(tile, feature, query.eye, Measure::Slope, found);
-        Some(Sighting {
-            tile: tile_position,
-            feature: position,
-            distance: feature.envelope.distance_to_point(query.eye),
-        })
+        let feature = &tile.features[position];
+        self.finder.walls(tile, feature, eye, Measure::Slope, found);
     }
 
     /// Whether a box is below the horizon.
@@ -299,8 +303,10 @@ impl Walker for Finder<'_> {
         tile: &Tile,
         position: usize,
     ) {
-        self.visible
-            .extend(solver.meet(query, tile_position, tile, position));
+        if let Some(sighting) = solver.meet(query, tile_position, tile, position) {
+            self.visible.push(sighting);
+            solver.take_walls(query.eye, tile, position, 0.0);
+        }
     }
 }
 

@@ -7,7 +7,6 @@ use std::ops::{ControlFlow, Range};
 
 use glam::DVec2;
 
-use super::EYE_MARGIN;
 use super::occluder::parts;
 use super::projection::{Edge, Facing, SIDES, Side, Span};
 use super::solver::{
@@ -15,6 +14,7 @@ use super::solver::{
 };
 use super::target::outline_slopes;
 use super::tile::{Tile, positions};
+use super::{EYE_MARGIN, PLACE_MARGIN};
 
 /// How much wider a range is made at each end, radians: thousands of roundings of an azimuth, and a
 /// micrometre at a thousand kilometres.
@@ -84,6 +84,18 @@ struct Met {
 struct Line {
     met: usize,
     slopes: Span,
+    /// What hides it is nearer than this.
+    depth: f64,
+}
+
+impl Line {
+    /// Whether a wall may share a place with it.
+    fn meets(&self, wall: &Span) -> bool {
+        let line = &self.slopes;
+        line.side == wall.side
+            && line.from - PLACE_MARGIN <= wall.to
+            && wall.from <= line.to + PLACE_MARGIN
+    }
 }
 
 /// Places on one side in which a feature may be seen.
@@ -148,7 +160,7 @@ impl Walker for Extents {
             && nearest.depth <= depth
         {
             solver.pass(nearest.depth);
-            let Line { met, slopes } = self.lines[nearest.item];
+            let Line { met, slopes, .. } = self.lines[nearest.item];
             self.open.pop();
             let side = slopes.side.0;
             solver.horizon.gaps(&slopes, &mut |from, to| {
@@ -188,16 +200,18 @@ impl Walker for Extents {
         let is_beside = depth(query.eye, &feature.envelope) > EYE_MARGIN
             || is_beside(&self.corners[corners.clone()]);
         let height = feature.envelope.max.z - query.eye.z;
-        let farthest = match is_beside {
-            true => self.follow(corners.clone(), height),
-            false => None,
-        };
+        let first = self.lines.len();
+        let is_known = is_beside && self.follow(corners.clone(), height);
         // No feature hides itself, though its columns may stick out of its outline by roundings.
-        solver.take_walls(query.eye, tile, position, farthest.unwrap_or(0.0));
+        let own = &self.lines[first..];
+        solver.take_walls(query.eye, tile, position, |wall| {
+            let met = own.iter().filter(|line| line.meets(wall));
+            met.map(|line| line.depth).fold(0.0, f64::max)
+        });
         self.met.push(Met {
             sighting,
             corners,
-            surrounds: farthest.is_none(),
+            surrounds: !is_known,
         });
     }
 }
@@ -241,19 +255,16 @@ impl Extents {
     }
 
     /// Takes the lines of the next feature, each to be compared with the walls that are nearer than
-    /// all that is seen at its places. Returns the depth at which the last of them is; none if they do
-    /// not bound the feature.
-    fn follow(&mut self, corners: Range<usize>, height: f64) -> Option<f64> {
+    /// all that is seen at its places. Returns whether they bound it.
+    fn follow(&mut self, corners: Range<usize>, height: f64) -> bool {
         let corners = &self.corners[corners];
         let (met, lines, open) = (self.met.len(), &mut self.lines, &mut self.open);
-        let mut farthest = 0.0_f64;
         let mut add = |slopes: Span, depth: f64| {
-            farthest = farthest.max(depth);
             open.push(ByDepth {
                 depth,
                 item: lines.len(),
             });
-            lines.push(Line { met, slopes });
+            lines.push(Line { met, slopes, depth });
         };
         let mut nearest = 0.0_f64;
         let is_bounded = outline_slopes(corners, 1.0, |inverse_depth| {
@@ -268,14 +279,13 @@ impl Extents {
         })
         .is_continue();
         // The far ones have; what they are compared with must be before all of the feature.
-        let is_bounded = is_bounded
+        is_bounded
             && (height >= 0.0
                 || outline_slopes(corners, height, |slopes| {
                     add(*slopes, least_depth(nearest));
                     ControlFlow::Continue(())
                 })
-                .is_continue());
-        is_bounded.then_some(farthest)
+                .is_continue())
     }
 
     /// Makes ranges of azimuths of what was seen.

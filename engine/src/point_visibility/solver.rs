@@ -204,15 +204,22 @@ impl PointSolver {
         })
     }
 
-    /// Takes the walls of a feature; they join the horizon when the walk has passed them and a depth.
-    pub(super) fn take_walls(&mut self, eye: DVec3, tile: &Tile, position: usize, beyond: f64) {
+    /// Takes the walls of a feature; each joins the horizon when the walk has passed it and the depth
+    /// that is given for it.
+    pub(super) fn take_walls(
+        &mut self,
+        eye: DVec3,
+        tile: &Tile,
+        position: usize,
+        beyond: impl Fn(&Span) -> f64,
+    ) {
         let (walls, pending, horizon) = (&mut self.walls, &mut self.pending, &self.horizon);
         let found = &mut |wall: Wall| {
             if horizon.covers(&wall.slopes) {
                 return;
             }
             pending.push(ByDepth {
-                depth: wall.depth.max(beyond),
+                depth: wall.depth.max(beyond(&wall.slopes)),
                 item: walls.len(),
             });
             walls.push(wall);
@@ -305,7 +312,7 @@ impl Walker for Finder<'_> {
     ) {
         if let Some(sighting) = solver.meet(query, tile_position, tile, position) {
             self.visible.push(sighting);
-            solver.take_walls(query.eye, tile, position, 0.0);
+            solver.take_walls(query.eye, tile, position, |_| 0.0);
         }
     }
 }

@@ -11,8 +11,9 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use engine::{
-    Box3d, CityLayout, LocalGround, OuterPrism, PointQuery, PointSolver, Site, SolidColumn, Street,
-    Tile, TileFeature, TileSource, ViewRegionOptions, generated_city, open_space,
+    Box3d, CityLayout, Extents, LocalGround, OuterPrism, PointQuery, PointSolver, PointTarget,
+    Site, SolidColumn, Street, Tile, TileFeature, TileSource, ViewRegionOptions, generated_city,
+    open_space,
 };
 use formats::{ReadOptions, read_bytes};
 use glam::{DVec2, DVec3};
@@ -55,23 +56,97 @@ fn main() {
     );
     let mut solver = PointSolver::default();
     for prisms in [false, true] {
-        let mut best = f64::INFINITY;
-        let mut returned = 0;
-        for _ in 0..ROUNDS {
-            let begun = Instant::now();
-            returned = 0;
-            for &eye in &eyes {
-                returned += answer(&mut solver, &mut tiles, eye, range, prisms).len();
-            }
-            best = best.min(begun.elapsed().as_secs_f64());
-        }
-        println!(
-            "prisms {prisms}: {:.1} us a query, {:.1} returned",
-            best / eyes.len() as f64 * 1e6,
-            returned as f64 / eyes.len() as f64
-        );
+        let (time, returned) = timed(&eyes, |eye| {
+            answer(&mut solver, &mut tiles, eye, range, prisms).len()
+        });
+        println!("prisms {prisms}: {time:.1} us a query, {returned:.1} returned");
     }
+    directions(&eyes, range, &mut solver, &mut tiles);
+    isovists(&eyes, range, &mut solver, &mut tiles);
+    hiders(&features, &eyes, range, &mut solver, &mut tiles);
     judge(&features, &eyes[..JUDGED], range, &mut solver, &mut tiles);
+}
+
+/// Runs all eyes several times; the least microseconds an eye, and the sum of what one round gives.
+fn timed(eyes: &[DVec3], mut answer: impl FnMut(DVec3) -> usize) -> (f64, f64) {
+    let mut best = f64::INFINITY;
+    let mut sum = 0;
+    for _ in 0..ROUNDS {
+        let begun = Instant::now();
+        sum = eyes.iter().map(|&eye| answer(eye)).sum();
+        best = best.min(begun.elapsed().as_secs_f64());
+    }
+    let count = eyes.len() as f64;
+    (best / count * 1e6, sum as f64 / count)
+}
+
+/// What the directions of all that is seen cost.
+fn directions(eyes: &[DVec3], range: f64, solver: &mut PointSolver, tiles: &mut Tiles) {
+    let mut extents = Extents::default();
+    let mut seen = 0;
+    let (time, ranges) = timed(eyes, |eye| {
+        let query = PointQuery {
+            eye,
+            range,
+            prisms: true,
+            wedge: None,
+        };
+        let Ok(()) = solver.visible_extent(&query, tiles, &mut extents);
+        seen += extents.len();
+        extents.iter().map(|(_, ranges)| ranges.count()).sum()
+    });
+    let seen = seen as f64 / (ROUNDS * eyes.len()) as f64;
+    println!("directions: {time:.1} us a query, {seen:.1} features, {ranges:.1} ranges");
+}
+
+/// What isovists cost.
+fn isovists(eyes: &[DVec3], range: f64, solver: &mut PointSolver, tiles: &mut Tiles) {
+    let mut corners = Vec::new();
+    let (time, count) = timed(eyes, |eye| {
+        let Ok(()) = solver.isovist(eye, range, tiles, &mut corners);
+        corners.len()
+    });
+    println!("isovist: {time:.1} us a query, {count:.1} corners");
+}
+
+/// What it costs to find what hides one feature, any in range.
+fn hiders(
+    features: &[TileFeature],
+    eyes: &[DVec3],
+    range: f64,
+    solver: &mut PointSolver,
+    tiles: &mut Tiles,
+) {
+    let targets: Vec<&TileFeature> = eyes
+        .iter()
+        .enumerate()
+        .map(|(at, &eye)| {
+            let is_near = |f: &&TileFeature| f.envelope.distance_to_point(eye) <= range;
+            let all = features.iter().cycle().skip(at * 7919 % features.len());
+            all.take(features.len())
+                .find(is_near)
+                .unwrap_or(&features[0])
+        })
+        .collect();
+    let (mut at, mut hidden) = (0, 0);
+    let (time, count) = timed(eyes, |eye| {
+        let target = targets[at % targets.len()];
+        at += 1;
+        let target = PointTarget {
+            id: target.id,
+            envelope: target.envelope,
+            outline: &target.outline,
+        };
+        let Ok(hiders) = solver.hidden_by(eye, &target, tiles);
+        hidden += usize::from(hiders.is_some());
+        hiders.map_or(0, |hiders| hiders.len())
+    });
+    let share = hidden as f64 / at as f64;
+    println!(
+        "hidden by: {time:.1} us a query, {:.0} % hidden, by {:.2} features",
+        share * 100.0,
+        count / share
+    );
 }
 
 /// The features of a city in squares.
@@ -115,7 +190,12 @@ fn answer(
     prisms: bool,
 ) -> Vec<i64> {
     let mut seen = Vec::new();
-    let query = PointQuery { eye, range, prisms };
+    let query = PointQuery {
+        eye,
+        range,
+        prisms,
+        wedge: None,
+    };
     let Ok(()) = solver.solve(&query, tiles, &mut seen);
     seen.iter()
         .map(|s| tiles.tiles[s.tile].feature(s.feature).0)
@@ -130,13 +210,29 @@ fn judge(
     tiles: &mut Tiles,
 ) {
     let mut totals = [[0usize; 3]; 2];
+    let mut directions = [0usize; 3];
+    let mut extents = Extents::default();
     for &eye in eyes {
         let near: Vec<&TileFeature> = features
             .iter()
             .filter(|f| f.envelope.distance_to_point(eye) <= range)
             .collect();
         for (prisms, total) in [false, true].into_iter().zip(&mut totals) {
-            let truth = seen_by_rays(&near, eye, prisms);
+            let rays = seen_by_rays(&near, eye, prisms);
+            if prisms {
+                let query = PointQuery {
+                    eye,
+                    range,
+                    prisms,
+                    wedge: None,
+                };
+                let Ok(()) = solver.visible_extent(&query, tiles, &mut extents);
+                let said = rays_in_ranges(&extents, tiles);
+                directions[0] += said.len();
+                directions[1] += rays.len();
+                directions[2] += rays.difference(&said).count();
+            }
+            let truth: HashSet<i64> = rays.into_iter().map(|(_, id)| id).collect();
             let answer: HashSet<i64> = answer(solver, tiles, eye, range, prisms)
                 .into_iter()
                 .collect();
@@ -145,7 +241,8 @@ fn judge(
             total[2] += truth.difference(&answer).count();
         }
     }
-    for (name, [returned, visible, missed]) in ["box", "prism"].into_iter().zip(totals) {
+    let all = totals.into_iter().chain([directions]);
+    for (name, [returned, visible, missed]) in ["box", "prism", "direction"].into_iter().zip(all) {
         println!(
             "{name} truth by {RAYS} rays, {} eyes: returned {returned}, visible {visible}, missed \
              {missed}, Q {:.4}",
@@ -155,8 +252,23 @@ fn judge(
     }
 }
 
-/// Features whose box or prism some ray can see past the columns.
-fn seen_by_rays(near: &[&TileFeature], eye: DVec3, prisms: bool) -> HashSet<i64> {
+/// Rays in the ranges of features, with the features.
+fn rays_in_ranges(extents: &Extents, tiles: &Tiles) -> HashSet<(i64, i64)> {
+    let mut found = HashSet::new();
+    for (sighting, ranges) in extents.iter() {
+        let (id, _) = tiles.tiles[sighting.tile].feature(sighting.feature);
+        for range in ranges {
+            // Rays are anticlockwise from +x, each in the middle of its share.
+            let at = |azimuth: f64| (TAU / 4.0 - azimuth) / TAU * RAYS as f64 - 0.5;
+            let rays = at(range.to).ceil() as i64..=at(range.from).floor() as i64;
+            found.extend(rays.map(|ray| (ray.rem_euclid(RAYS as i64), id)));
+        }
+    }
+    found
+}
+
+/// Rays that can see a feature's box or prism past the columns, with the features.
+fn seen_by_rays(near: &[&TileFeature], eye: DVec3, prisms: bool) -> HashSet<(i64, i64)> {
     let mut by_ray: Vec<Vec<u32>> = vec![Vec::new(); RAYS];
     for (at, feature) in near.iter().enumerate() {
         let (middle, half) = azimuths(&feature.envelope, eye);
@@ -194,7 +306,7 @@ fn seen_by_rays(near: &[&TileFeature], eye: DVec3, prisms: bool) -> HashSet<i64>
                 .iter()
                 .all(|&(d, s, of)| of == at || d >= place || s <= slope);
             if is_clear {
-                seen.insert(feature.id);
+                seen.insert((ray as i64, feature.id));
             }
         }
     }

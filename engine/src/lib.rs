@@ -44,8 +44,8 @@ pub use mesh::{
 };
 pub use outer_prism::OuterPrism;
 pub use point_visibility::{
-    MalformedTile, PointQuery, PointSolver, Sighting, Tile, TileFeature, TileSource,
-    neighbourhoods, visible_from_point,
+    AzimuthRange, Extents, Hider, MalformedTile, PointQuery, PointSolver, PointTarget, Sighting,
+    Tile, TileFeature, TileSource, neighbourhoods, visible_from_point,
 };
 pub use shadow_region::ShadowRegion;
 pub use solid::{Hides, Repair, Solid};

@@ -55,6 +55,7 @@ fn query(x: f64, y: f64, z: f64) -> PointQuery {
         eye: DVec3::new(x + PLACE.x, y + PLACE.y, z),
         range: 1000.0,
         prisms: true,
+        wedge: None,
     }
 }
 
@@ -165,6 +166,7 @@ fn a_gap_as_wide_as_a_rounding_is_a_gap() {
         eye: DVec3::new(2.4141800425032693, 0.46965330367367875, 0.82),
         range: f64::INFINITY,
         prisms: false,
+        wedge: None,
     };
     assert_eq!(seen(&features, &query), [1, 2, 3]);
 }
@@ -312,6 +314,7 @@ fn tiles_do_not_change_the_answer_and_hidden_ones_are_not_read() {
             eye: DVec3::new(corner.x, corner.y, 1.75),
             range: 400.0,
             prisms: false,
+            wedge: None,
         };
         let mut found = Vec::new();
         source.read.fill(0);

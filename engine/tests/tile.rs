@@ -53,6 +53,7 @@ fn seen(tile: &Tile, eye: DVec3, outdated: Option<i64>) -> Vec<i64> {
         eye,
         range: 400.0,
         prisms: true,
+        wedge: None,
     };
     let mut sightings = Vec::new();
     let Ok(()) = PointSolver::default().solve(&query, &mut source, &mut sightings);

@@ -1,7 +1,7 @@
 //! [`FieldOfView`], what an observer looks at, as a value of one of several SQL types.
 
 use crate::types::{Frustum, ViewCone, ViewSector};
-use engine::Box3d;
+use engine::{Box3d, PlanWedge};
 use glam::DVec3;
 use pgrx::pg_sys;
 
@@ -52,6 +52,15 @@ impl FieldOfView {
 }
 
 impl Prepared {
+    /// The directions in plan that it holds; `None` if these are all, or may be.
+    pub fn plan_wedge(&self) -> Option<PlanWedge> {
+        match self {
+            Self::Cone(cone) => cone.plan_wedge(),
+            Self::Sector(sector) => sector.plan_wedge(),
+            Self::Frustum(frustum) => frustum.as_ref().and_then(|frustum| frustum.plan_wedge()),
+        }
+    }
+
     /// Whether it shares a point with a box.
     pub fn meets(&self, target: &Box3d) -> bool {
         match self {

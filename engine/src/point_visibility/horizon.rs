@@ -1,7 +1,12 @@
 //! [`Horizon`], the upper envelope of all that hides, by place around the eye.
 
+use glam::DVec2;
+
 use super::PLACE_MARGIN;
-use super::projection::{SIDES, Span};
+use super::projection::{SIDES, Side, Span};
+
+/// A slope above all others.
+pub const SUMMIT: f64 = 1e300;
 
 /// Slices of equal width on a side. A slice holds few pieces, and knows the lowest of them.
 const SLICES: usize = 64;
@@ -95,6 +100,36 @@ impl Slice {
         }
         false
     }
+
+    /// Gives `found` where a line is not below the horizon, or a rounding more.
+    fn gaps(&self, line: &Span, found: &mut impl FnMut(f64, f64)) {
+        if line.highest() < self.floor {
+            return;
+        }
+        let first = self.pieces.partition_point(|piece| piece.to <= line.from);
+        let mut done = line.from;
+        for piece in &self.pieces[first..] {
+            if piece.from >= line.to {
+                break;
+            }
+            if piece.from > done {
+                found(done, piece.from);
+            }
+            let (from, to) = (done.max(piece.from), line.to.min(piece.to));
+            let is_below = |t: f64| line.value(t) < piece.value(t);
+            let crossing = (piece.at_zero - line.at_zero) / (line.rise - piece.rise);
+            match (is_below(from), is_below(to)) {
+                (true, true) => {}
+                (true, false) => found(crossing.clamp(from, to), to),
+                (false, true) => found(from, crossing.clamp(from, to)),
+                (false, false) => found(from, to),
+            }
+            done = to;
+        }
+        if done < line.to {
+            found(done, line.to);
+        }
+    }
 }
 
 /// Whether pieces in a row cover a new one, so that it adds nothing.
@@ -170,6 +205,25 @@ impl Horizon {
         }
     }
 
+    /// Hides all in the directions anticlockwise from one to another.
+    pub fn shut_between(&mut self, from: DVec2, to: DVec2) {
+        let (begin, end) = (Side::leaving(from), Side::reaching(to));
+        let (first, last) = (begin.place(from), end.place(to));
+        let steps = match (end.0 + SIDES - begin.0) % SIDES {
+            0 if first >= last => SIDES,
+            steps => steps,
+        };
+        for step in 0..=steps {
+            self.raise(&Span {
+                side: Side((begin.0 + step) % SIDES),
+                from: if step == 0 { first } else { -1.0 },
+                to: if step == steps { last } else { 1.0 },
+                at_zero: SUMMIT,
+                rise: 0.0,
+            });
+        }
+    }
+
     /// Adds what hides all below it.
     pub fn raise(&mut self, piece: &Span) {
         for (at, part) in parts(piece) {
@@ -187,13 +241,37 @@ impl Horizon {
         parts(piece).all(|(at, part)| self.slices[at].covers(&part))
     }
 
+    /// Gives `found` the places at which a line is not below the horizon, from one to another, in
+    /// order; those that touch may come in parts.
+    pub fn gaps(&self, line: &Span, found: &mut impl FnMut(f64, f64)) {
+        let (from, to) = widened(line);
+        if from < to {
+            for (at, part) in parts(&line.part(from, to)) {
+                self.slices[at].gaps(&part, found);
+            }
+        } else {
+            // Of what is not a number, nothing is known.
+            found(-1.0, 1.0);
+        }
+    }
+
+    /// The highest of all that was raised, anticlockwise.
+    pub fn pieces(&self) -> impl Iterator<Item = &Span> {
+        self.slices.iter().flat_map(|slice| &slice.pieces)
+    }
+
     /// Whether all of a line is below the horizon.
     pub fn hides(&self, line: &Span) -> bool {
-        let from = (line.from - PLACE_MARGIN).max(-1.0);
-        let to = (line.to + PLACE_MARGIN).min(1.0);
+        let (from, to) = widened(line);
         // Of what is not a number, nothing is known.
         from < to && parts(&line.part(from, to)).all(|(at, part)| self.slices[at].hides(&part))
     }
+}
+
+/// Where a line may be, given the roundings of places.
+fn widened(line: &Span) -> (f64, f64) {
+    let from = (line.from - PLACE_MARGIN).max(-1.0);
+    (from, (line.to + PLACE_MARGIN).min(1.0))
 }
 
 /// The parts of a line in the slices that it passes; none if it has no width.

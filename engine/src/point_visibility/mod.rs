@@ -6,7 +6,10 @@
 //! upper envelope of straight pieces, kept exactly: no raster, and no trigonometry.
 
 mod bytes;
+mod extent;
+mod hidden_by;
 mod horizon;
+mod isovist;
 mod neighbourhoods;
 mod occluder;
 mod projection;
@@ -16,6 +19,8 @@ mod tile;
 mod tree;
 
 pub use bytes::MalformedTile;
+pub use extent::{AzimuthRange, Extents};
+pub use hidden_by::{Hider, PointTarget};
 pub use neighbourhoods::neighbourhoods;
 pub use solver::{PointQuery, PointSolver, Sighting, TileSource, visible_from_point};
 pub use tile::{Tile, TileFeature};

@@ -17,8 +17,17 @@ const DEPTH_MARGIN: f64 = 1e-8;
 #[derive(Clone, Copy, Debug)]
 pub struct Wall {
     pub depth: f64,
-    /// Slopes to its top.
+    /// Slopes to its top, or inverse depths.
     pub slopes: Span,
+}
+
+/// What is known of a wall at each place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Measure {
+    /// The slope to its top.
+    Slope,
+    /// Its inverse depth, where it stands up over the eye.
+    InverseDepth,
 }
 
 /// Reads columns; its memory is kept from one to the next.
@@ -34,6 +43,7 @@ impl WallFinder {
         tile: &Tile,
         feature: &Feature,
         eye: DVec3,
+        measure: Measure,
         found: &mut impl FnMut(Wall),
     ) {
         let nearest = eye.clamp(feature.envelope.min, feature.envelope.max);
@@ -42,10 +52,15 @@ impl WallFinder {
             if is_near && holds(tile, column, eye) {
                 continue;
             }
+            let height = match measure {
+                Measure::Slope => column.top - eye.z,
+                Measure::InverseDepth if column.top > eye.z => 1.0,
+                Measure::InverseDepth => continue,
+            };
             for ring in &tile.rings[positions(&column.rings)] {
                 let corners = positions(ring);
                 let buried = &tile.buried[corners.clone()];
-                self.ring(&tile.corners[corners], buried, column.top, eye, found);
+                self.ring(&tile.corners[corners], buried, height, eye, found);
             }
         }
     }
@@ -56,11 +71,10 @@ impl WallFinder {
         &mut self,
         corners: &[DVec2],
         buried: &[bool],
-        top: f64,
+        height: f64,
         eye: DVec3,
         found: &mut impl FnMut(Wall),
     ) {
-        let height = top - eye.z;
         let (wanted, height) = if height >= 0.0 {
             (Facing::Right, height * (1.0 - SLOPE_MARGIN))
         } else {
@@ -148,7 +162,7 @@ impl Corner {
 
 /// Cuts the inverse depth of a wall into parts of about one depth; gives each with its greatest
 /// depth, and whether it is the first and the last.
-fn parts(span: &Span, mut found: impl FnMut(&Span, f64, bool, bool)) {
+pub fn parts(span: &Span, mut found: impl FnMut(&Span, f64, bool, bool)) {
     let ends = [span.value(span.from), span.value(span.to)];
     let (nearest, farthest) = (1.0 / ends[0].max(ends[1]), 1.0 / ends[0].min(ends[1]));
     if !(nearest > 0.0 && farthest.is_finite()) {

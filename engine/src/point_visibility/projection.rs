@@ -24,6 +24,17 @@ impl Side {
         }
     }
 
+    /// The point at depth 1 and a place.
+    #[inline]
+    pub fn direction(self, place: f64) -> DVec2 {
+        match self.0 {
+            0 => DVec2::new(1.0, place),
+            1 => DVec2::new(-place, 1.0),
+            2 => DVec2::new(-1.0, -place),
+            _ => DVec2::new(place, -1.0),
+        }
+    }
+
     /// Place `u / w` of a point, from -1 to 1.
     #[inline]
     pub fn place(self, point: DVec2) -> f64 {

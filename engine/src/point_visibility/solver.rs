@@ -9,11 +9,11 @@ use glam::{DVec2, DVec3};
 
 use super::EYE_MARGIN;
 use super::horizon::Horizon;
-use super::occluder::{Wall, WallFinder};
-use super::projection::chebyshev;
+use super::occluder::{Measure, Wall, WallFinder};
+use super::projection::{Span, chebyshev};
 use super::target::outline_slopes;
 use super::tile::{Tile, TileFeature, positions};
-use crate::{Box3d, in_range};
+use crate::{Box3d, PlanWedge, in_range};
 
 /// Squared distances below this share of the squared range are in range whatever the roundings.
 const PLAINLY_IN_RANGE: f64 = 0.999;
@@ -49,6 +49,9 @@ pub struct PointQuery {
     /// Whether features whose outer prism is hidden are left out, or only those whose outer envelope
     /// is.
     pub prisms: bool,
+    /// In which directions the eye looks, if not in all. What can be seen only in others is not
+    /// reported.
+    pub wedge: Option<PlanWedge>,
 }
 
 /// A feature that may be seen.
@@ -68,16 +71,18 @@ pub struct Sighting {
 /// memory is kept from one query to the next.
 #[derive(Debug)]
 pub struct PointSolver {
-    horizon: Horizon,
+    pub(super) horizon: Horizon,
     /// What is left to visit, nearest first.
     open: BinaryHeap<ByDepth<Visit>>,
     /// Walls that the walk has not passed yet, nearest far end first.
     pending: BinaryHeap<ByDepth<usize>>,
     /// All walls of this walk; `pending` has their positions.
     walls: Vec<Wall>,
-    finder: WallFinder,
+    pub(super) finder: WallFinder,
     /// Corners of the prism in hand, relative to the eye.
     outline: Vec<DVec2>,
+    /// The nearest walls all around, joined.
+    pub(super) fronts: Vec<Span>,
 }
 
 impl Default for PointSolver {
@@ -89,6 +94,7 @@ impl Default for PointSolver {
             walls: Vec::new(),
             finder: WallFinder::default(),
             outline: Vec::new(),
+            fronts: Vec::new(),
         }
     }
 }
@@ -105,60 +111,81 @@ impl PointSolver {
         visible: &mut Vec<Sighting>,
     ) -> Result<(), S::Error> {
         self.begin();
+        if let Some(wedge) = &query.wedge {
+            self.horizon.shut_between(wedge.left, wedge.right);
+        }
+        self.walk(query, source, &mut Finder { visible })
+    }
+
+    /// Visits what is in range front to back.
+    ///
+    /// # Errors
+    /// Those of the source.
+    pub(super) fn walk<S: TileSource>(
+        &mut self,
+        query: &PointQuery,
+        source: &mut S,
+        walker: &mut impl Walker,
+    ) -> Result<(), S::Error> {
         for (tile, bounds) in source.bounds().iter().enumerate() {
-            self.open(query, tile, None, bounds);
+            if walker.wants(query, bounds) {
+                self.open(query.eye, tile, None, bounds);
+            }
         }
         while let Some(ByDepth { depth, item: visit }) = self.open.pop() {
-            self.pass(depth);
+            walker.advance(self, depth);
             let Some(at) = visit.node else {
-                if !self.hides_box(query.eye, &source.bounds()[visit.tile]) {
+                if !walker.skips(self, query.eye, &source.bounds()[visit.tile]) {
                     let root = source.tile(visit.tile)?.tree.nodes.first().copied();
-                    if let Some(root) = root {
-                        self.open(query, visit.tile, Some(0), &root.bounds);
+                    if let Some(root) = root
+                        && walker.wants(query, &root.bounds)
+                    {
+                        self.open(query.eye, visit.tile, Some(0), &root.bounds);
                     }
                 }
                 continue;
             };
             let tile = source.tile(visit.tile)?;
             let node = &tile.tree.nodes[at as usize];
-            if self.hides_box(query.eye, &node.bounds) {
+            if walker.skips(self, query.eye, &node.bounds) {
                 continue;
             }
             for child in node.first..node.first + node.count {
                 let bounds = &tile.tree.nodes[child as usize].bounds;
-                self.open(query, visit.tile, Some(child), bounds);
+                if walker.wants(query, bounds) {
+                    self.open(query.eye, visit.tile, Some(child), bounds);
+                }
             }
             if node.count == 0 {
                 let position = node.first as usize;
                 let feature = tile.features[position].id;
                 if !source.is_outdated(visit.tile, feature) {
                     let tile = source.tile(visit.tile)?;
-                    self.meet(query, visit.tile, tile, position, visible);
+                    walker.meet(self, query, visit.tile, tile, position);
                 }
             }
         }
         Ok(())
     }
 
-    fn begin(&mut self) {
+    /// Forgets the last query.
+    pub(super) fn begin(&mut self) {
         self.horizon.clear();
         self.open.clear();
         self.pending.clear();
         self.walls.clear();
     }
 
-    /// Puts a box that is in range among those to visit.
-    fn open(&mut self, query: &PointQuery, tile: usize, node: Option<u32>, bounds: &Box3d) {
-        if is_in_range(query, bounds) {
-            self.open.push(ByDepth {
-                depth: depth(query.eye, bounds),
-                item: Visit { tile, node },
-            });
-        }
+    /// Puts a box among those to visit.
+    fn open(&mut self, eye: DVec3, tile: usize, node: Option<u32>, bounds: &Box3d) {
+        self.open.push(ByDepth {
+            depth: depth(eye, bounds),
+            item: Visit { tile, node },
+        });
     }
 
     /// Raises the horizon by all walls that are nearer than all that is still to be visited.
-    fn pass(&mut self, depth: f64) {
+    pub(super) fn pass(&mut self, depth: f64) {
         while let Some(nearest) = self.pending.peek()
             && nearest.depth < depth
         {
@@ -167,15 +194,14 @@ impl PointSolver {
         }
     }
 
-    /// A feature whose envelope is not hidden: reports it unless its prism is, and takes its walls.
-    fn meet(
+    /// A feature whose envelope is not hidden, unless its prism is.
+    pub(super) fn meet(
         &mut self,
         query: &PointQuery,
         tile_position: usize,
         tile: &Tile,
         position: usize,
-        visible: &mut Vec<Sighting>,
-    ) {
+    ) -> Option<Sighting> {
         let feature = &tile.features[position];
         let outline = &tile.corners[positions(&feature.outline)];
         if query.prisms && !outline.is_empty() {
@@ -185,42 +211,49 @@ impl PointSolver {
                 .extend(outline.iter().map(|&corner| corner - eye));
             let is_beside = depth(query.eye, &feature.envelope) > EYE_MARGIN;
             if is_beside && self.hides(&self.outline, feature.envelope.max.z - query.eye.z) {
-                return;
+                return None;
             }
         }
-        visible.push(Sighting {
+        Some(Sighting {
             tile: tile_position,
             feature: position,
             distance: feature.envelope.distance_to_point(query.eye),
-        });
+        })
+    }
+
+    /// Takes the walls of a feature; each joins the horizon when the walk has passed it and the depth
+    /// that is given for it.
+    pub(super) fn take_walls(
+        &mut self,
+        eye: DVec3,
+        tile: &Tile,
+        position: usize,
+        beyond: impl Fn(&Span) -> f64,
+    ) {
         let (walls, pending, horizon) = (&mut self.walls, &mut self.pending, &self.horizon);
-        self.finder.walls(tile, feature, query.eye, &mut |wall| {
+        let found = &mut |wall: Wall| {
             if horizon.covers(&wall.slopes) {
                 return;
             }
             pending.push(ByDepth {
-                depth: wall.depth,
+                depth: wall.depth.max(beyond(&wall.slopes)),
                 item: walls.len(),
             });
             walls.push(wall);
-        });
+        };
+        let feature = &tile.features[position];
+        self.finder.walls(tile, feature, eye, Measure::Slope, found);
     }
 
-    fn hides_box(&self, eye: DVec3, bounds: &Box3d) -> bool {
-        if depth(eye, bounds) <= EYE_MARGIN {
-            return false;
-        }
-        let (min, max) = (bounds.min - eye, bounds.max - eye);
-        let corners = [
-            DVec2::new(min.x, min.y),
-            DVec2::new(max.x, min.y),
-            DVec2::new(max.x, max.y),
-            DVec2::new(min.x, max.y),
-        ];
-        self.hides(&corners, max.z)
+    /// Whether a box is below the horizon.
+    pub(super) fn hides_box(&self, eye: DVec3, bounds: &Box3d) -> bool {
+        depth(eye, bounds) > EYE_MARGIN
+            && self.hides(&plan_corners(eye, bounds), bounds.max.z - eye.z)
     }
 
-    fn hides(&self, corners: &[DVec2], top: f64) -> bool {
+    /// Whether a prism is below the horizon: its corners in plan, relative to the eye, which is beside
+    /// it, and its top above the eye.
+    pub(super) fn hides(&self, corners: &[DVec2], top: f64) -> bool {
         outline_slopes(corners, top, |line| match self.horizon.hides(line) {
             true => ControlFlow::Continue(()),
             false => ControlFlow::Break(()),
@@ -240,10 +273,65 @@ fn is_in_range(query: &PointQuery, bounds: &Box3d) -> bool {
     }
 }
 
+/// The corners of a box in plan, anticlockwise and relative to the eye.
+pub(super) fn plan_corners(eye: DVec3, bounds: &Box3d) -> [DVec2; 4] {
+    let (min, max) = ((bounds.min - eye).truncate(), (bounds.max - eye).truncate());
+    [min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)]
+}
+
 /// How near a box is in plan, by the greater of both offsets: the least depth of all its points.
-fn depth(eye: DVec3, bounds: &Box3d) -> f64 {
+pub(super) fn depth(eye: DVec3, bounds: &Box3d) -> f64 {
     let nearest = DVec2::ZERO.clamp((bounds.min - eye).truncate(), (bounds.max - eye).truncate());
     chebyshev(nearest)
+}
+
+/// What a walk does on its way.
+pub(super) trait Walker {
+    /// Whether a box is to be visited.
+    fn wants(&self, query: &PointQuery, bounds: &Box3d) -> bool {
+        is_in_range(query, bounds)
+    }
+
+    /// Nothing nearer than this will be met any more.
+    fn advance(&mut self, solver: &mut PointSolver, depth: f64) {
+        solver.pass(depth);
+    }
+
+    /// Whether what is in a box is passed by.
+    fn skips(&self, solver: &PointSolver, eye: DVec3, bounds: &Box3d) -> bool {
+        solver.hides_box(eye, bounds)
+    }
+
+    /// A feature that is not passed by.
+    fn meet(
+        &mut self,
+        solver: &mut PointSolver,
+        query: &PointQuery,
+        tile_position: usize,
+        tile: &Tile,
+        position: usize,
+    );
+}
+
+/// Finds what can be seen.
+struct Finder<'a> {
+    visible: &'a mut Vec<Sighting>,
+}
+
+impl Walker for Finder<'_> {
+    fn meet(
+        &mut self,
+        solver: &mut PointSolver,
+        query: &PointQuery,
+        tile_position: usize,
+        tile: &Tile,
+        position: usize,
+    ) {
+        if let Some(sighting) = solver.meet(query, tile_position, tile, position) {
+            self.visible.push(sighting);
+            solver.take_walls(query.eye, tile, position, |_| 0.0);
+        }
+    }
 }
 
 /// Something to visit.
@@ -256,9 +344,9 @@ struct Visit {
 
 /// Something in a heap that has the least depth on top.
 #[derive(Clone, Copy, Debug)]
-struct ByDepth<T> {
-    depth: f64,
-    item: T,
+pub(super) struct ByDepth<T> {
+    pub depth: f64,
+    pub item: T,
 }
 
 impl<T> Ord for ByDepth<T> {

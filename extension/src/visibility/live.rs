@@ -115,6 +115,7 @@ impl View {
             eye: self.eye,
             range: self.range,
             prisms: true,
+            wedge: self.field.and_then(|field| field.prepared().plan_wedge()),
         };
         let mut sightings = Vec::new();
         // Taken out while it works: an error while tiles are read unwinds, and leaves a new one.

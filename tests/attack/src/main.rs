@@ -1,7 +1,13 @@
 //! Attacks the point solver with random scenes: nothing that it leaves out may be seen.
 #![forbid(unsafe_code)]
 
+#[cfg(test)]
+mod directions;
 mod finding;
+#[cfg(test)]
+mod hiders;
+#[cfg(test)]
+mod isovists;
 mod kind;
 mod observer;
 mod plan;

@@ -46,6 +46,12 @@ impl Tiling {
         }
     }
 
+    /// The number of the feature at a position of a tile.
+    #[cfg(test)]
+    pub fn id(&self, tile: usize, feature: usize) -> i64 {
+        self.tiles[tile].feature(feature).0
+    }
+
     /// The numbers of the features that may be seen.
     pub fn answer(&mut self, solver: &mut PointSolver, query: &PointQuery) -> Vec<i64> {
         let mut visible = Vec::new();

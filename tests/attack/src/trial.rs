@@ -64,9 +64,9 @@ impl AddAssign for Counts {
 pub struct Trial {
     number: u64,
     rng: Rng,
-    scene: Scene,
-    features: Vec<TileFeature>,
-    judged: Vec<JudgedFeature>,
+    pub scene: Scene,
+    pub features: Vec<TileFeature>,
+    pub judged: Vec<JudgedFeature>,
     pub counts: Counts,
     pub findings: Vec<Finding>,
 }
@@ -130,6 +130,7 @@ impl Trial {
                     eye: eye.into(),
                     range,
                     prisms: field % 2 == 1,
+                    wedge: None,
                 };
                 let answer = tiling.answer(solver, &query);
                 self.counts.queries += 1;
@@ -217,6 +218,7 @@ mod tests {
             eye: glam::DVec3::new(-40.0, -40.0, 60.0),
             range: f64::INFINITY,
             prisms: false,
+            wedge: None,
         };
         let mut judge = PointJudge::new(&judged, query.eye.to_array());
         // An answer of nothing loses all that stands out.

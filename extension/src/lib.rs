@@ -7,10 +7,12 @@ mod error;
 mod field_of_view;
 mod import;
 mod index;
+mod line_of_sight;
 mod models;
 mod planner;
 mod scene;
 mod settings;
+mod snapshot_read;
 mod types;
 
 pgrx::pg_module_magic!();

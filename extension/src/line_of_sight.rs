@@ -18,6 +18,7 @@ const SHORTEST_PIECE: f64 = 16.0;
 
 /// Whether the second point can be seen from the first, and what is in the way first.
 #[pg_extern(stable, strict, parallel_safe)]
+#[allow(clippy::type_complexity, reason = "the columns of the result")]
 fn line_of_sight(
     scene: &str,
     a: Point3d,

@@ -1,9 +1,11 @@
 //! Lines of sight against an exact oracle: in solids and surfaces on small grids, where running along
 //! faces and through edges and corners is the rule, and chosen cases.
 
-use engine::{Box3d, Closedness, Share, SightLine, TriangleMesh};
+use engine::{
+    Box3d, CityFeature, CityLayout, Closedness, Share, SightLine, TriangleMesh, generated_city,
+};
 use glam::{DVec3, I64Vec3};
-use oracle::{Aabb, Mesh, Prism, Trace, segment_meets_interior};
+use oracle::{Aabb, Mesh, Prism, RayCaster, Sight, Trace, segment_meets_interior};
 use proptest::prelude::*;
 
 /// How many random scenes a property is tried on.
@@ -144,7 +146,12 @@ fn assert_at_cut(line: &SightLine, from: DVec3, share: &Share, trace: &Trace, cu
     let expected = DVec3::from_array(trace.cuts[cut].point);
     assert_eq!(line.point(share), expected);
     let distance = line.distance(share);
-    let size = from.abs().max(expected.abs()).max_element();
+    // Both may be the origin.
+    let size = from
+        .abs()
+        .max(expected.abs())
+        .max_element()
+        .max(f64::MIN_POSITIVE);
     let apart = (expected / size - from / size).length() * size;
     assert!(
         (distance - apart).abs() <= 1e-9 * apart.max(size * 1e-6),
@@ -477,6 +484,21 @@ fn a_sheet_hides_where_it_is_crossed() {
     .map(|t| t.map(DVec3::from_array));
     assert_eq!(passed(&joined, [0.0, 4.0, 4.0], [9.0, 4.0, 4.0]), Some(5.0));
     assert_eq!(passed(&joined[1..], [0.0, 4.0, 4.0], [9.0, 4.0, 4.0]), None);
+    // Three that share a corner and cross each other below it do, without a common edge.
+    let crossed = [
+        [[0.0, 0.0, 0.0], [-4.0, -1.0, -1.0], [4.0, -1.0, -1.0]],
+        [[0.0, 0.0, 0.0], [4.0, -4.0, -1.0], [-2.0, 5.0, -1.0]],
+        [[0.0, 0.0, 0.0], [2.0, 5.0, -1.0], [-4.0, -4.0, -1.0]],
+    ]
+    .map(|t| t.map(DVec3::from_array));
+    assert_eq!(
+        passed(&crossed, [0.0, 0.0, 5.0], [0.0, 0.0, -5.0]),
+        Some(5.0)
+    );
+    assert_eq!(
+        passed(&crossed[1..], [0.0, 0.0, 5.0], [0.0, 0.0, -5.0]),
+        None
+    );
 }
 
 #[test]
@@ -496,6 +518,52 @@ fn what_is_not_known_to_be_solid_hides_only_by_its_surface() {
     short.triangles[0][0] = 99;
     assert_eq!(entered(&short, from, to), None);
     assert_eq!(entered(&TriangleMesh::default(), from, to), None);
+}
+
+/// The fractional parts of multiples of irrational numbers fill a box evenly.
+fn spread(number: u32, within: &Box3d, by: DVec3) -> DVec3 {
+    within.min + within.size() * (by * f64::from(number)).fract()
+}
+
+#[test]
+fn a_city_is_seen_as_the_ray_caster_sees_it() {
+    let city: Vec<CityFeature> = generated_city(CityLayout::Streets, 150, 7)
+        .features()
+        .collect();
+    let triangles: Vec<(u32, [[f64; 3]; 3])> = (0..)
+        .zip(&city)
+        .flat_map(|(id, feature)| {
+            let corners = feature.mesh.corners();
+            corners.map(move |triangle| (id, triangle.map(|corner| corner.to_array())))
+        })
+        .collect();
+    let caster = RayCaster::new(&triangles).unwrap();
+    let extent = (city.iter().map(|feature| feature.envelope))
+        .reduce(|a, b| a.union(&b))
+        .unwrap();
+    let [mut clear, mut hidden] = [0, 0];
+    for number in 1..3000 {
+        let from = spread(number, &extent, DVec3::new(2.0, 3.0, 5.0).map(f64::sqrt));
+        let to = spread(number, &extent, DVec3::new(7.0, 11.0, 13.0).map(f64::sqrt));
+        let holds_eye = |feature: &CityFeature| feature.mesh.winding_number(from) > 0.5;
+        if city.iter().any(holds_eye) {
+            continue;
+        }
+        let line = SightLine::new(from, to).unwrap();
+        let met = city.iter().filter(|f| line.meets(&f.envelope));
+        let first = met.filter_map(|feature| line.enters(&feature.mesh)).min();
+        match (caster.is_clear(from.to_array(), to.to_array(), None), first) {
+            (Sight::Clear, None) => clear += 1,
+            (Sight::Blocked { .. }, Some(share)) => {
+                let way = (to - from).to_array();
+                let hit = caster.first_hit(from.to_array(), way).unwrap();
+                assert!((line.distance(&share) - hit.distance).abs() < 1e-6);
+                hidden += 1;
+            }
+            other => panic!("{from} {to} {other:?}"),
+        }
+    }
+    assert!(clear > 100 && hidden > 100, "{clear} {hidden}");
 }
 
 #[test]

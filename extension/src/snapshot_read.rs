@@ -61,7 +61,7 @@ impl Statement<'_> {
         let mut nulls: Vec<c_char> = Vec::with_capacity(arguments.len());
         for argument in arguments {
             let datum = argument.datum();
-            nulls.push(if datum.is_some() { b' ' } else { b'n' }.cast_signed());
+            nulls.push(if datum.is_some() { b' ' } else { b'n' } as c_char);
             values.push(datum.map_or(pg_sys::Datum::null(), |datum| datum.sans_lifetime()));
         }
         // SAFETY: the plan is of the open connection, and there is a value and a flag for each of its

@@ -1,5 +1,6 @@
 //! The geometry of occlusion: boxes and fields of view, meshes and their envelopes, the umbra of
-//! one occluder, occlusion volumes along streets, and the view region they are cut to.
+//! one occluder, occlusion volumes along streets, the view region they are cut to, and exact lines of
+//! sight.
 //! Pure Rust: no PostgreSQL, no files, no clock. Metres in a right-handed frame with z up.
 #![forbid(unsafe_code)]
 
@@ -14,6 +15,7 @@ mod convex_prism;
 mod feature_set;
 mod field_of_view;
 mod hilbert;
+mod line_of_sight;
 mod mesh;
 mod outer_prism;
 mod point_visibility;
@@ -38,6 +40,7 @@ pub use field_of_view::{
     Camera, DepthRange, Frustum, MatrixDefect, PlanWedge, ViewCone, ViewSector, in_range,
 };
 pub use hilbert::{hilbert_key, plan_key};
+pub use line_of_sight::{Share, SightLine};
 pub use mesh::{
     Closedness, Extrusion, GROUND_TOLERANCE, InnerEnvelope, MeshDefect, PolygonDefect,
     TriangleMesh, deviation, extruded, inner_envelope, triangulate,

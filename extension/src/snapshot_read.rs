@@ -46,7 +46,18 @@ impl Statement {
 
     /// Runs it, and gives each row to `row`. The arguments are of the types that it was planned with,
     /// none of them null.
-    pub fn read(&self, moment: Moment, arguments: &[Datum], mut row: impl FnMut(&Row)) {
+    pub fn read(&self, moment: Moment, arguments: &[Datum], row: impl FnMut(&Row)) {
+        self.read_some(moment, arguments, 0, row);
+    }
+
+    /// The same, up to so many rows; all if that is 0.
+    pub fn read_some(
+        &self,
+        moment: Moment,
+        arguments: &[Datum],
+        most: i64,
+        mut row: impl FnMut(&Row),
+    ) {
         let mut arguments = arguments.to_vec();
         connected(|| {
             // SAFETY: inside an SPI connection; the plan is alive until `free` takes it. The result's
@@ -57,7 +68,7 @@ impl Statement {
                     arguments.as_mut_ptr(),
                     std::ptr::null(),
                     moment == Moment::Query,
-                    0,
+                    most.into(),
                 );
                 if status < 0 {
                     failed("execute", status);

@@ -111,7 +111,7 @@ fn add_columns(statements: &Statements, moment: Moment, features: &mut [BaseFeat
 }
 
 /// A row of feature, footprint, bottom, top.
-fn column_of(row: &Row) -> Option<SolidColumn> {
+pub fn column_of(row: &Row) -> Option<SolidColumn> {
     let (footprint, is_null) = row.datum(2);
     if is_null {
         return None;
@@ -128,7 +128,8 @@ fn column_of(row: &Row) -> Option<SolidColumn> {
     })
 }
 
-fn upright(bounds: &engine::Box3d) -> SolidColumn {
+/// A box as a column.
+pub fn upright(bounds: &engine::Box3d) -> SolidColumn {
     let corner = |x: f64, y: f64| Coord { x, y };
     let (min, max) = (bounds.min, bounds.max);
     SolidColumn {

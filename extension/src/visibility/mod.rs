@@ -3,6 +3,7 @@
 mod base;
 mod cache;
 mod edit_log;
+mod line_of_sight;
 mod live;
 mod pack;
 mod packed_tile;

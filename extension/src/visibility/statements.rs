@@ -45,10 +45,18 @@ pub enum Ask {
     InnerEnvelopes,
     /// Features that occlusion volumes hide from an eye.
     Hidden,
+    /// Id and envelope of the features that meet a box, but for those with some ids.
+    EnvelopesNear,
+    /// Feature, vertices, triangles of some features, and whether these enclose a solid.
+    Meshes,
+    /// Feature, footprint, bottom and top of all columns of some features.
+    AllColumns,
+    /// Feature and box of all inner envelopes of some features.
+    AllInnerEnvelopes,
 }
 
 impl Ask {
-    const COUNT: usize = Self::Hidden as usize + 1;
+    const COUNT: usize = Self::AllInnerEnvelopes as usize + 1;
 
     /// The statement, for a scene whose name is quoted, and the types of its parameters. Columns are
     /// cast to the types that they are read as.
@@ -75,15 +83,27 @@ impl Ask {
             ),
             Self::FeaturesNear => format!("{features} WHERE envelope OPERATOR(occlusion.&&) $1"),
             Self::FeaturesOf => format!("{features} WHERE id OPERATOR(pg_catalog.=) ANY ($1)"),
-            Self::Columns => format!(
+            Self::Columns => format!("{} AND grounded", Self::AllColumns.text(scene)),
+            Self::InnerEnvelopes => format!("{} AND grounded", Self::AllInnerEnvelopes.text(scene)),
+            Self::AllColumns => format!(
                 "SELECT feature::pg_catalog.int8, footprint::pg_catalog.polygon[], \
                         bottom::pg_catalog.float8, top::pg_catalog.float8 \
-                 FROM {scene}.solid_column \
-                 WHERE feature OPERATOR(pg_catalog.=) ANY ($1) AND grounded"
+                 FROM {scene}.solid_column WHERE feature OPERATOR(pg_catalog.=) ANY ($1)"
             ),
-            Self::InnerEnvelopes => format!(
+            Self::AllInnerEnvelopes => format!(
                 "SELECT feature::pg_catalog.int8, box::occlusion.box3d FROM {scene}.inner_envelope \
-                 WHERE feature OPERATOR(pg_catalog.=) ANY ($1) AND grounded"
+                 WHERE feature OPERATOR(pg_catalog.=) ANY ($1)"
+            ),
+            Self::EnvelopesNear => format!(
+                "SELECT id::pg_catalog.int8, envelope::occlusion.box3d FROM {scene}.feature \
+                 WHERE envelope OPERATOR(occlusion.&&) $1 \
+                   AND id OPERATOR(pg_catalog.<>) ALL ($2)"
+            ),
+            Self::Meshes => format!(
+                "SELECT near.feature, m.vertices::pg_catalog.float8[], \
+                        m.triangles::pg_catalog.int4[], m.defect IS NULL \
+                 FROM pg_catalog.unnest($1) AS near (feature) LEFT JOIN {scene}.mesh AS m \
+                   ON m.feature OPERATOR(pg_catalog.=) near.feature"
             ),
             Self::Hidden => hidden_statement(scene),
         }
@@ -93,7 +113,13 @@ impl Ask {
         match self {
             Self::AnyTile => Vec::new(),
             Self::Content => vec![pg_sys::INT8OID],
-            Self::FeaturesOf | Self::Columns | Self::InnerEnvelopes => vec![pg_sys::INT8ARRAYOID],
+            Self::FeaturesOf
+            | Self::Columns
+            | Self::InnerEnvelopes
+            | Self::Meshes
+            | Self::AllColumns
+            | Self::AllInnerEnvelopes => vec![pg_sys::INT8ARRAYOID],
+            Self::EnvelopesNear => vec![Box3d::type_oid(), pg_sys::INT8ARRAYOID],
             Self::Tiles | Self::Edits | Self::FeaturesNear => vec![Box3d::type_oid()],
             Self::Hidden => vec![crate::types::Point3d::type_oid()],
         }

@@ -5,7 +5,7 @@ use pgrx::pg_sys::{self, Oid};
 use std::ffi::{CStr, CString};
 
 /// Columns that visibility queries read, with their types; `None` is `box3d`.
-const READ: [(&CStr, &[(&CStr, Option<Oid>)]); 5] = [
+const READ: [(&CStr, &[(&CStr, Option<Oid>)]); 6] = [
     (
         c"feature",
         &[
@@ -32,6 +32,15 @@ const READ: [(&CStr, &[(&CStr, Option<Oid>)]); 5] = [
             (c"feature", Some(pg_sys::INT8OID)),
             (c"box", None),
             (c"grounded", Some(pg_sys::BOOLOID)),
+        ],
+    ),
+    (
+        c"mesh",
+        &[
+            (c"feature", Some(pg_sys::INT8OID)),
+            (c"vertices", Some(pg_sys::FLOAT8ARRAYOID)),
+            (c"triangles", Some(pg_sys::INT4ARRAYOID)),
+            (c"defect", Some(pg_sys::TEXTOID)),
         ],
     ),
     (

@@ -41,6 +41,7 @@ mod sight_target;
 mod solid;
 mod test_point;
 mod touch;
+mod trace;
 mod volume;
 mod winding;
 
@@ -62,4 +63,5 @@ pub use prism::Prism;
 pub use ray_caster::{BadTriangle, Hit, MAX_COORDINATE, RayCaster, Sight};
 pub use samples::{SAMPLE_INSET, surface_samples};
 pub use segment::segment_meets_interior;
+pub use trace::{Trace, TraceCut};
 pub use volume::{VolumeFault, check_volume};

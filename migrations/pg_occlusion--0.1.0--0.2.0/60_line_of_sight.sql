@@ -1,0 +1,3 @@
+-- Lines of sight.
+
+-- include sql/72_line_of_sight.sql

@@ -13,13 +13,13 @@ END;
 COMMENT ON FUNCTION occlusion.covers(polygon[], float8, float8, float8) IS
     'whether a point lies in a footprint (outer ring, then holes) or within a margin of it, metres';
 
--- The features that occlusion volumes hide from an eye, $1. A volume counts only where the eye is in the
+-- The features that occlusion volumes hide from an eye, $1, and those that hide them. A volume counts only where the eye is in the
 -- view region: an eye within a millimetre of a solid counts as inside it, and is not.
 CREATE OR REPLACE FUNCTION occlusion.hidden_features_statement(scene text) RETURNS text
 LANGUAGE sql STABLE STRICT PARALLEL SAFE
 SET search_path = pg_catalog, pg_temp AS $$
     SELECT format($q$
-        SELECT v.occludee
+        SELECT v.occludee, v.occluder
         FROM %1$I.occlusion_volume AS v
         WHERE v.box OPERATOR(occlusion.@>) $1
           AND (SELECT EXISTS (

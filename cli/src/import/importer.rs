@@ -119,6 +119,9 @@ impl<'a> Importer<'a> {
         }
         spinner.set_message("view region");
         let open_space = streets::open_space(&mut self.transaction, self.scene)?;
+        spinner.set_message("tiles");
+        let pack = "SELECT occlusion.pack_tiles($1, optional => true)";
+        self.transaction.execute(pack, &[&self.scene])?;
         self.describe()?;
         self.transaction.commit()?;
         spinner.finish_and_clear();
@@ -153,6 +156,7 @@ impl<'a> Importer<'a> {
             "inner_envelope",
             "solid_column",
             "street",
+            "tile",
         ];
         let tables = tables.map(|table| format!("{schema}.{table}")).join(", ");
         Ok(self

@@ -20,7 +20,7 @@ pub use feature_set::StoredSet;
 pub use frustum::Frustum;
 pub use number::shortest;
 pub use point3d::Point3d;
-pub use ring::{ring, rings};
+pub use ring::{Path, Ring, ring, rings};
 pub use view_cone::ViewCone;
 pub use view_sector::ViewSector;
 

@@ -11,7 +11,7 @@ use engine::{PointQuery, PointSolver, Sighting};
 use glam::DVec3;
 use pgrx::{IntoDatum, PgSqlErrorCode};
 use std::cell::RefCell;
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 /// Metres by which the box that preselects all round is larger than the range, so that its rounding
 /// loses nothing in range.
@@ -75,7 +75,7 @@ impl View {
     }
 
     /// A box that holds all of it.
-    fn bounds(&self) -> engine::Box3d {
+    pub fn bounds(&self) -> engine::Box3d {
         let reach = DVec3::splat(self.range + RANGE_MARGIN);
         let most = DVec3::splat(f64::MAX);
         engine::Box3d {
@@ -98,48 +98,47 @@ impl View {
         let prepared = self.field.map(|field| field.prepared());
         let mut seen: Vec<Seen> = sightings
             .iter()
-            .filter_map(|sighting| seen_in(&tiles, sighting))
+            .filter_map(|sighting| tiles.seen(sighting))
             .filter(|seen| prepared.is_none_or(|field| field.meets(&seen.envelope)))
             .collect();
         account.in_view = seen.len();
         if !seen.is_empty() {
             let hidden = hidden_by_volumes(scene, self.eye);
-            seen.retain(|seen| !hidden.contains(&seen.id));
+            seen.retain(|seen| !hidden.contains_key(&seen.id));
         }
         account.hidden = account.in_view - seen.len();
         (seen, account)
     }
 
     fn solve(&self, tiles: &mut Tiles) -> Result<Vec<Sighting>, Refusal> {
-        let query = PointQuery {
+        let mut sightings = Vec::new();
+        with_solver(|solver| solver.solve(&self.query(), tiles, &mut sightings))?;
+        Ok(sightings)
+    }
+
+    /// The question for the solver.
+    pub fn query(&self) -> PointQuery {
+        PointQuery {
             eye: self.eye,
             range: self.range,
             prisms: true,
             wedge: self.field.and_then(|field| field.prepared().plan_wedge()),
-        };
-        let mut sightings = Vec::new();
-        // Taken out while it works: an error while tiles are read unwinds, and leaves a new one.
-        let mut solver = SOLVER.take();
-        solver.solve(&query, tiles, &mut sightings)?;
-        SOLVER.set(solver);
-        Ok(sightings)
+        }
     }
 }
 
-fn seen_in(tiles: &Tiles, sighting: &Sighting) -> Option<Seen> {
-    let tile = tiles.get(sighting.tile)?;
-    let (id, envelope) = tile.tile.feature(sighting.feature);
-    Some(Seen {
-        id,
-        class: tile.class(sighting.feature).to_owned(),
-        envelope,
-        distance: sighting.distance,
-    })
+/// Runs `work` with the solver of this backend. It is taken out meanwhile: an error while tiles are read
+/// unwinds, and leaves a new one.
+pub fn with_solver<T>(work: impl FnOnce(&mut PointSolver) -> T) -> T {
+    let mut solver = SOLVER.take();
+    let result = work(&mut solver);
+    SOLVER.set(solver);
+    result
 }
 
-/// The features that occlusion volumes hide from an eye.
-fn hidden_by_volumes(scene: &str, eye: DVec3) -> HashSet<i64> {
-    let mut hidden = HashSet::new();
+/// The features that occlusion volumes hide from an eye, each with one that hides it alone.
+pub fn hidden_by_volumes(scene: &str, eye: DVec3) -> HashMap<i64, i64> {
+    let mut hidden = HashMap::new();
     let tables = SceneTables::of(scene);
     if tables.has_volumes() {
         let eye = Point3d(eye).into_datum().into_iter().collect::<Vec<_>>();
@@ -147,7 +146,7 @@ fn hidden_by_volumes(scene: &str, eye: DVec3) -> HashSet<i64> {
         statements
             .get(Ask::Hidden)
             .read(Moment::Query, &eye, |row| {
-                hidden.extend(row.get::<i64>(1));
+                hidden.extend(row.get::<i64>(1).zip(row.get::<i64>(2)));
             });
     }
     hidden

@@ -2,6 +2,7 @@
 
 mod base;
 mod cache;
+mod directions;
 mod edit_log;
 mod line_of_sight;
 mod live;

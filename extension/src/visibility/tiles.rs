@@ -2,13 +2,14 @@
 
 use super::base;
 use super::cache::{self, Version};
+use super::live::Seen;
 use super::packed_tile::PackedTile;
 use super::statements::{Ask, Statements};
 use super::tables::Tables as SceneTables;
 use crate::error::Refusal;
 use crate::snapshot_read::Moment;
 use crate::types::Box3d;
-use engine::{Tile, TileSource};
+use engine::{Sighting, Tile, TileSource};
 use pgrx::pg_sys::Datum;
 use pgrx::{IntoDatum, PgSqlErrorCode, Uuid};
 use std::collections::HashSet;
@@ -122,6 +123,18 @@ impl Tiles {
     /// The features in a tile that was read, with their classes.
     pub fn get(&self, position: usize) -> Option<&PackedTile> {
         self.tiles[position].as_deref()
+    }
+
+    /// The feature of a sighting.
+    pub fn seen(&self, sighting: &Sighting) -> Option<Seen> {
+        let tile = self.get(sighting.tile)?;
+        let (id, envelope) = tile.tile.feature(sighting.feature);
+        Some(Seen {
+            id,
+            class: tile.class(sighting.feature).to_owned(),
+            envelope,
+            distance: sighting.distance,
+        })
     }
 
     /// How many tiles there are, and how many of them were needed.

@@ -19,8 +19,7 @@ thread_local! {
 
 /// Statements on one scene.
 pub struct Statements {
-    /// Quoted.
-    scene: String,
+    name: String,
     cells: [OnceCell<Statement>; Ask::COUNT],
 }
 
@@ -58,9 +57,9 @@ pub enum Ask {
 impl Ask {
     const COUNT: usize = Self::AllInnerEnvelopes as usize + 1;
 
-    /// The statement, for a scene whose name is quoted, and the types of its parameters. Columns are
-    /// cast to the types that they are read as.
-    fn text(self, scene: &str) -> String {
+    /// The statement for a scene. Columns are cast to the types that they are read as.
+    fn text(self, name: &str) -> String {
+        let scene = quoted(name);
         let features = format!(
             "SELECT id::pg_catalog.int8, class::pg_catalog.text, envelope::occlusion.box3d, \
                     outline::pg_catalog.polygon FROM {scene}.feature"
@@ -83,8 +82,8 @@ impl Ask {
             ),
             Self::FeaturesNear => format!("{features} WHERE envelope OPERATOR(occlusion.&&) $1"),
             Self::FeaturesOf => format!("{features} WHERE id OPERATOR(pg_catalog.=) ANY ($1)"),
-            Self::Columns => format!("{} AND grounded", Self::AllColumns.text(scene)),
-            Self::InnerEnvelopes => format!("{} AND grounded", Self::AllInnerEnvelopes.text(scene)),
+            Self::Columns => format!("{} AND grounded", Self::AllColumns.text(name)),
+            Self::InnerEnvelopes => format!("{} AND grounded", Self::AllInnerEnvelopes.text(name)),
             Self::AllColumns => format!(
                 "SELECT feature::pg_catalog.int8, footprint::pg_catalog.polygon[], \
                         bottom::pg_catalog.float8, top::pg_catalog.float8 \
@@ -105,7 +104,7 @@ impl Ask {
                  FROM pg_catalog.unnest($1) AS near (feature) LEFT JOIN {scene}.mesh AS m \
                    ON m.feature OPERATOR(pg_catalog.=) near.feature"
             ),
-            Self::Hidden => hidden_statement(scene),
+            Self::Hidden => hidden_statement(name),
         }
     }
 
@@ -136,7 +135,7 @@ impl Statements {
             }
             let new = || {
                 Rc::new(Self {
-                    scene: quoted(scene),
+                    name: scene.to_owned(),
                     cells: [const { OnceCell::new() }; Ask::COUNT],
                 })
             };
@@ -147,7 +146,7 @@ impl Statements {
     /// One of them.
     pub fn get(&self, ask: Ask) -> &Statement {
         self.cells[ask as usize]
-            .get_or_init(|| Statement::new(&ask.text(&self.scene), &ask.parameters()))
+            .get_or_init(|| Statement::new(&ask.text(&self.name), &ask.parameters()))
     }
 
     /// Forgets them, unless a query that is under way has them in hand.

@@ -3,10 +3,10 @@
 CREATE OR REPLACE FUNCTION occlusion.make_city(layout text, features integer, seed bigint,
                                     first_part integer DEFAULT 0, parts integer DEFAULT 2147483647)
 RETURNS TABLE (number integer, kind text, class text, envelope occlusion.box3d, inner_envelope occlusion.box3d,
-               vertices float8[], triangles integer[], footprint text[], top float8)
+               vertices float8[], triangles integer[], footprint text[], top float8, outline text)
 LANGUAGE c IMMUTABLE STRICT PARALLEL SAFE AS 'MODULE_PATHNAME', 'make_city_wrapper';
 COMMENT ON FUNCTION occlusion.make_city(text, integer, bigint, integer, integer) IS
-    'the features of some parts of a generated city, each a small piece of it: their boxes, closed meshes and solid columns';
+    'the features of some parts of a generated city, each a small piece of it: their boxes, closed meshes, solid columns and outlines';
 
 CREATE OR REPLACE FUNCTION occlusion.make_city_streets(layout text, features integer, seed bigint)
 RETURNS TABLE (area text[], eye_low float8, eye_high float8)
@@ -53,9 +53,9 @@ BEGIN
                 FROM occlusion.make_city($1, $2, $3, $4, $5) AS m
             ),
             feature AS (
-                INSERT INTO %1$I.feature (id, name, class, envelope, slot)
+                INSERT INTO %1$I.feature (id, name, class, envelope, slot, outline)
                 SELECT c.id, c.kind || ' ' || c.id, c.class, c.envelope,
-                       CASE WHEN $1 <> 'scattered' THEN c.id - 1 END
+                       CASE WHEN $1 <> 'scattered' THEN c.id - 1 END, c.outline::polygon
                 FROM city AS c
                 RETURNING id
             ),

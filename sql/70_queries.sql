@@ -48,7 +48,6 @@ CREATE OR REPLACE FUNCTION occlusion.visible_features(scene text, cone occlusion
 RETURNS TABLE (feature_id bigint, class text, envelope occlusion.box3d, distance float8)
 LANGUAGE c STABLE STRICT PARALLEL SAFE ROWS 100 COST 10000
 SUPPORT occlusion.visible_features_support
-SET search_path = pg_catalog, pg_temp
 AS 'MODULE_PATHNAME', 'visible_features_cone_wrapper';
 COMMENT ON FUNCTION occlusion.visible_features(text, occlusion.view_cone) IS
     'features that meet the cone of view and are not hidden from its eye; holds every visible one';
@@ -57,7 +56,6 @@ CREATE OR REPLACE FUNCTION occlusion.visible_features(scene text, sector occlusi
 RETURNS TABLE (feature_id bigint, class text, envelope occlusion.box3d, distance float8)
 LANGUAGE c STABLE STRICT PARALLEL SAFE ROWS 100 COST 10000
 SUPPORT occlusion.visible_features_support
-SET search_path = pg_catalog, pg_temp
 AS 'MODULE_PATHNAME', 'visible_features_sector_wrapper';
 COMMENT ON FUNCTION occlusion.visible_features(text, occlusion.view_sector) IS
     'features that meet the sector of view and are not hidden from its eye; holds every visible one';
@@ -66,7 +64,6 @@ CREATE OR REPLACE FUNCTION occlusion.visible_features(scene text, observer occlu
 RETURNS TABLE (feature_id bigint, class text, envelope occlusion.box3d, distance float8)
 LANGUAGE c STABLE STRICT PARALLEL SAFE ROWS 100 COST 10000
 SUPPORT occlusion.visible_features_support
-SET search_path = pg_catalog, pg_temp
 AS 'MODULE_PATHNAME', 'visible_features_all_round_wrapper';
 COMMENT ON FUNCTION occlusion.visible_features(text, occlusion.point3d, float8) IS
     'features within range of the observer, all round, that are not hidden from there; holds every visible one';
@@ -85,7 +82,7 @@ $$;
 COMMENT ON FUNCTION occlusion.require_range(float8) IS 'raises an error unless a range is finite and not negative';
 
 CREATE OR REPLACE FUNCTION occlusion.explain_sight(scene text, cone occlusion.view_cone) RETURNS SETOF text
-LANGUAGE c STABLE STRICT PARALLEL SAFE SET search_path = pg_catalog, pg_temp
+LANGUAGE c STABLE STRICT PARALLEL SAFE
 AS 'MODULE_PATHNAME', 'explain_sight_cone_wrapper';
 COMMENT ON FUNCTION occlusion.explain_sight(text, occlusion.view_cone) IS
     'how many tiles and features visible_features looked at to answer';
@@ -103,7 +100,7 @@ COMMENT ON FUNCTION occlusion.explain_visible_features(text, occlusion.view_cone
     'how visible_features answers: what it looked at, and the plan, run, of its question for occlusion volumes';
 
 CREATE OR REPLACE FUNCTION occlusion.explain_sight(scene text, sector occlusion.view_sector) RETURNS SETOF text
-LANGUAGE c STABLE STRICT PARALLEL SAFE SET search_path = pg_catalog, pg_temp
+LANGUAGE c STABLE STRICT PARALLEL SAFE
 AS 'MODULE_PATHNAME', 'explain_sight_sector_wrapper';
 COMMENT ON FUNCTION occlusion.explain_sight(text, occlusion.view_sector) IS
     'how many tiles and features visible_features looked at to answer';
@@ -121,7 +118,7 @@ COMMENT ON FUNCTION occlusion.explain_visible_features(text, occlusion.view_sect
     'how visible_features answers: what it looked at, and the plan, run, of its question for occlusion volumes';
 
 CREATE OR REPLACE FUNCTION occlusion.explain_sight(scene text, observer occlusion.point3d, range float8) RETURNS SETOF text
-LANGUAGE c STABLE STRICT PARALLEL SAFE SET search_path = pg_catalog, pg_temp
+LANGUAGE c STABLE STRICT PARALLEL SAFE
 AS 'MODULE_PATHNAME', 'explain_sight_all_round_wrapper';
 COMMENT ON FUNCTION occlusion.explain_sight(text, occlusion.point3d, float8) IS
     'how many tiles and features visible_features looked at to answer';

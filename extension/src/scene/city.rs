@@ -3,7 +3,7 @@
 use super::polygon;
 use crate::error::Refusal;
 use crate::types::Box3d;
-use engine::{City, CityLayout, generated_city};
+use engine::{City, CityLayout, OuterPrism, generated_city};
 use pgrx::iter::TableIterator;
 use pgrx::{PgSqlErrorCode, name, pg_extern};
 
@@ -11,7 +11,7 @@ use pgrx::{PgSqlErrorCode, name, pg_extern};
 const MOST_FEATURES: i32 = 1_000_000;
 
 /// The features of some parts of a generated city, numbered from 1: what each is called, its class,
-/// boxes and mesh, and its one solid column, which stands on the ground.
+/// boxes and mesh, its one solid column, which stands on the ground, and its outline.
 #[pg_extern(immutable, strict, parallel_safe)]
 #[allow(clippy::type_complexity, reason = "the columns of the result")]
 fn make_city(
@@ -32,6 +32,7 @@ fn make_city(
         name!(triangles, Vec<i32>),
         name!(footprint, Vec<String>),
         name!(top, f64),
+        name!(outline, Option<String>),
     ),
 > {
     let part = |number: i32| u32::try_from(number).unwrap_or_default();
@@ -42,6 +43,7 @@ fn make_city(
         let mesh = &feature.mesh;
         let vertices = mesh.vertices.iter().flat_map(|vertex| vertex.to_array());
         let corners = mesh.triangles.as_flattened();
+        let prism = OuterPrism::around(mesh.vertices.iter().copied());
         (
             number,
             feature.kind,
@@ -52,6 +54,7 @@ fn make_city(
             corners.iter().map(|corner| corner.cast_signed()).collect(),
             polygon::area_text(&feature.column.footprint),
             feature.column.top,
+            prism.map(|prism| polygon::corners_text(&prism.hull)),
         )
     }))
 }

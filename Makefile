@@ -1,7 +1,7 @@
 # Every target is a script in scripts/; see CONTRIBUTING.md.
 # PG_CONFIG=/path/to/pg_config chooses another PostgreSQL, 14 to 18; "make test" without it tests on 15 and 18.
 
-.PHONY: help setup build db db-stop clean-db demo test bench-index install lint fmt
+.PHONY: help setup build db db-stop clean-db demo test bench-index bench-point install lint fmt
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
@@ -29,6 +29,9 @@ test: ## run every test; ends with "N passed, N failed"
 
 bench-index: build ## the indexes of box3d against PostGIS and cube (ROWS=100000 is quick, FORMAT=markdown)
 	@scripts/bench index
+
+bench-point: build ## live answers against PostGIS and the way of 2004 (FEATURES="10000 100000" is quicker, FORMAT=markdown)
+	@scripts/bench point
 
 install: ## copy what "make build" made into the server of PG_CONFIG
 	@scripts/install

@@ -1,6 +1,9 @@
 //! `occlusion bench`: measures this extension against others.
 
+mod format;
 mod index;
+mod point;
+mod quantile;
 
 use clap::{Args, Subcommand};
 
@@ -8,7 +11,8 @@ use crate::failure::{EXIT_STATUS, Failure};
 
 const EXAMPLES: &str = "Examples:
   occlusion bench index --rows 100000
-  occlusion bench index --format markdown";
+  occlusion bench index --format markdown
+  occlusion bench point delft --range 500";
 
 /// Measures this extension against others, in one run
 #[derive(Args, Debug)]
@@ -21,6 +25,7 @@ pub struct Bench {
 #[derive(Subcommand, Debug)]
 enum Benchmark {
     Index(index::Index),
+    Point(point::Point),
 }
 
 impl Bench {
@@ -28,6 +33,7 @@ impl Bench {
     pub fn run(&self) -> Result<bool, Failure> {
         match &self.benchmark {
             Benchmark::Index(index) => index.run(),
+            Benchmark::Point(point) => point.run().map(|()| true),
         }
     }
 }

@@ -166,7 +166,7 @@ impl<'a> Arena<'a> {
             ))?;
             seconds.push(began.elapsed().as_secs_f64());
         }
-        Ok(super::timing::quantile(&mut seconds, 0.5))
+        Ok(crate::bench::quantile::quantile(&mut seconds, 0.5))
     }
 
     /// Drops the schema.

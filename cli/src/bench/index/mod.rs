@@ -15,6 +15,7 @@ use clap::builder::RangedU64ValueParser;
 use indicatif::ProgressBar;
 use postgres::Client;
 
+use crate::bench::format::Format;
 use crate::database::Database;
 use crate::failure::{EXIT_STATUS, Failure};
 use crate::terminal::{self, BAD};
@@ -22,7 +23,6 @@ use arena::Arena;
 use contender::{Contender, Kind, SUPERUSER};
 use data_set::DataSet;
 use outcome::{Entry, Outcome};
-use report::Format;
 use timing::Effort;
 
 const EXAMPLES: &str = "Examples:

@@ -1,19 +1,8 @@
 //! What the benchmark prints.
 
-use clap::ValueEnum;
-
 use super::contender::Kind;
 use super::outcome::{Entry, Goal, Outcome};
-use crate::terminal;
-
-/// How tables are printed.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum Format {
-    /// For a terminal
-    Plain,
-    /// For a document
-    Markdown,
-}
+use crate::bench::format::Format;
 
 const MEGABYTE: f64 = 1e6;
 
@@ -62,13 +51,6 @@ impl Format {
         )
     }
 
-    fn title(self, text: &str) -> String {
-        match self {
-            Self::Plain => format!("{text}\n\n"),
-            Self::Markdown => format!("### {text}\n\n"),
-        }
-    }
-
     fn built(self, entries: &[Entry]) -> String {
         let row = |entry: &Entry| {
             let size = |bytes: i64| format!("{:.1}", bytes as f64 / MEGABYTE);
@@ -105,23 +87,6 @@ impl Format {
         let mut right = [true; 10];
         right[..2].fill(false);
         self.table(&heading, &right, &rows)
-    }
-
-    fn table(self, heading: &[&str], right: &[bool], rows: &[Vec<String>]) -> String {
-        match self {
-            Self::Plain => terminal::table(heading, right, rows),
-            Self::Markdown => {
-                let line = |cells: Vec<&str>| format!("| {} |", cells.join(" | "));
-                let rule = right
-                    .iter()
-                    .map(|&right| if right { "---:" } else { "---" });
-                let body = rows
-                    .iter()
-                    .map(|row| line(row.iter().map(String::as_str).collect()));
-                let head = [line(heading.to_vec()), line(rule.collect())];
-                head.into_iter().chain(body).collect::<Vec<_>>().join("\n")
-            }
-        }
     }
 }
 

@@ -83,3 +83,64 @@ fn every_index_is_measured_on_every_data_set() {
     }
     assert!(!database.finds(SCHEMA, "occlusion_bench_index"));
 }
+
+#[test]
+fn every_way_to_see_is_measured_on_every_scene() {
+    let mut database = TestDatabase::new("bench_point");
+    database
+        .client
+        .batch_execute("SELECT occlusion.generate_city('a town', 'streets', 150, 1)")
+        .unwrap();
+    let call = "CALL occlusion.generate_occlusion_volumes('a town', smallest => 4, range => 100)";
+    database.client.batch_execute(call).unwrap();
+    let run = occlusion(&[
+        "bench",
+        "point",
+        "a town",
+        "--range",
+        "60",
+        "--range",
+        "120",
+        "--observers",
+        "12",
+        "--rounds",
+        "1",
+        "--format",
+        "markdown",
+        "--database",
+        &database.url,
+    ])
+    .expect(0);
+    let text = &run.stdout;
+    let rows = cells(text);
+    assert_eq!(text.matches("### a town, ").count(), 2, "{text}");
+    assert_eq!(text.matches("Connecting and the first call: ").count(), 2);
+    let of = |way: &str| -> Vec<f64> {
+        let rows = rows.iter().filter(|row| row[0] == way);
+        let number = |row: &Vec<&str>| row[2].parse().unwrap_or_else(|_| panic!("{row:?}"));
+        rows.map(number).collect()
+    };
+    let (seen, in_range, old) = (
+        of("visible_features"),
+        of("box3d, in range only"),
+        of("2004: less what volumes hide"),
+    );
+    assert_eq!((seen.len(), in_range.len(), old.len()), (2, 2, 2), "{text}");
+    for at in 0..2 {
+        assert!(
+            0.0 < seen[at] && seen[at] <= old[at] && old[at] <= in_range[at],
+            "{text}"
+        );
+    }
+    if database.finds(EXTENSION, "postgis") {
+        assert_eq!(of("PostGIS n-D, in range only"), in_range);
+        assert_eq!(of("PostGIS 2D and z, in range only"), in_range);
+        assert_eq!(
+            of("PostGIS, a sight line to each middle").len(),
+            2,
+            "{text}"
+        );
+    }
+    assert!(!database.finds(SCHEMA, "occlusion_bench_point"));
+    occlusion(&["bench", "point", "atlantis", "--database", &database.url]).expect(3);
+}

@@ -1,4 +1,5 @@
--- A table for each kind of index, and the means to compare what an index answers with what is there.
+-- A table for each kind of index, and a scene; and the means to compare what an index or packed tiles answer with what
+-- is there.
 CREATE EXTENSION pg_occlusion;
 CREATE TABLE by_gist (id bigint GENERATED ALWAYS AS IDENTITY, box occlusion.box3d);
 CREATE TABLE by_spgist (LIKE by_gist INCLUDING IDENTITY);
@@ -49,3 +50,31 @@ FROM (VALUES ('by_gist'), ('by_spgist'), ('by_brin')) AS p (part),
              ('&&) ''VIEW_SECTOR(85700 447700 1.75, 200, 90, 300)''::occlusion.view_sector')) AS q (condition),
      LATERAL (SELECT found(part, condition, true) AS indexed, found(part, condition, false) AS plain) AS f
 GROUP BY part ORDER BY part;
+
+-- A town, and somebody who may not read its tiles and is answered from its tables.
+SELECT occlusion.generate_city('town', 'streets', 1000, 1);
+CREATE ROLE without_tiles;
+GRANT USAGE ON SCHEMA public, occlusion, town TO without_tiles;
+GRANT SELECT ON ALL TABLES IN SCHEMA town TO without_tiles;
+REVOKE SELECT ON town.tile, town.edit FROM without_tiles;
+
+-- Moves, lowers, removes and adds some houses, and packs the tiles now and then.
+CREATE PROCEDURE edit_town(round int) LANGUAGE plpgsql AS $$
+BEGIN
+    UPDATE town.feature SET envelope = occlusion.translate(envelope, 1, 1, 0) WHERE id % 211 = round % 211;
+    UPDATE town.solid_column SET top = (bottom + top) / 2 WHERE feature % 223 = round % 223 AND top > 1;
+    DELETE FROM town.feature WHERE id % 499 = round % 499 AND id > 1000;
+    INSERT INTO town.feature (envelope) SELECT occlusion.expand(envelope, 0.5) FROM town.feature WHERE id % 97 = round % 97 AND id <= 1000;
+    IF round % 5 = 0 THEN
+        PERFORM occlusion.pack_tiles('town');
+    END IF;
+END
+$$;
+
+-- What some observers see, all that is returned.
+CREATE FUNCTION seen_in_town() RETURNS text LANGUAGE sql STABLE AS $$
+    SELECT count(*) || ' ' || md5(string_agg((o.x, v.feature_id, v.class, v.envelope, v.distance)::text, ' ' ORDER BY o.x, v.feature_id))
+    FROM (SELECT occlusion.x(c) AS cx, occlusion.y(c) AS cy FROM occlusion.center('BOX3D(-100 -1000 0, 900 -100 0)'::occlusion.box3d) AS c) AS middle,
+         generate_series(-300, 300, 60) AS o (x),
+         LATERAL occlusion.visible_features('town', occlusion.point3d(cx + o.x, cy - o.x, 1.7 + (o.x + 300) / 30), 250) AS v
+$$;

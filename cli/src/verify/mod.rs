@@ -52,6 +52,14 @@ pub struct Verify {
     /// How far observers see, metres
     #[arg(long, value_name = "METRES", default_value_t = 500.0)]
     range: f64,
+    /// How far above eyes in the streets observers look from, metres
+    #[arg(
+        long,
+        value_name = "METRES",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
+    above: f64,
     /// Pixels along a side of each of the six faces
     #[arg(long, value_name = "PIXELS", default_value_t = 1024,
           value_parser = RangedU64ValueParser::<u32>::new().range(1..))]
@@ -101,7 +109,11 @@ impl Verify {
         let mesh = surfaces.mesh();
         let buffer = renderer.item_buffer(&mesh, self.resolution)?;
         let mut checker = Checker::new(&scene, &truth, buffer, self.resolution);
-        let observers = observers::choose(&scene, &lottery.winners(), self.observers, self.seed);
+        let mut observers =
+            observers::choose(&scene, &lottery.winners(), self.observers, self.seed);
+        for eye in &mut observers.eyes {
+            eye[2] += self.above;
+        }
         let bar = terminal::bar(observers.eyes.len(), "observers");
         let mut tally = Tally::default();
         for eye in &observers.eyes {

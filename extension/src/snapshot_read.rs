@@ -55,7 +55,7 @@ impl Statement {
         &self,
         moment: Moment,
         arguments: &[Datum],
-        most: i64,
+        most: std::ffi::c_long,
         mut row: impl FnMut(&Row),
     ) {
         let mut arguments = arguments.to_vec();
@@ -68,7 +68,7 @@ impl Statement {
                     arguments.as_mut_ptr(),
                     std::ptr::null(),
                     moment == Moment::Query,
-                    most.into(),
+                    most,
                 );
                 if status < 0 {
                     failed("execute", status);

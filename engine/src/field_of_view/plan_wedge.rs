@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 /// Radians by which a wedge is wider on each side than computed: some million roundings.
 const SLACK: f64 = 1e-9;
 
-/// Sine of the least angle by which directions must stay below half a turn to bound a wedge: a field of
-/// view that comes near may look straight up or down.
+/// Sine of the least angle by which directions must stay below half a turn to bound a wedge, and of that
+/// between a ray and the upright: a field of view that comes near may look straight up or down.
 const LEAST_GAP: f64 = 1e-6;
 
 /// A wedge of directions in plan, less than a whole turn.
@@ -29,9 +29,12 @@ impl PlanWedge {
         })
     }
 
-    /// The wedge that holds some directions and all between them; `None` if they do not lie in less
-    /// than half a turn.
+    /// The wedge that holds the plans of some rays, each a metre long or more, and all between them;
+    /// `None` if they do not lie in less than half a turn, or one is all but upright.
     pub(super) fn holding(directions: &[DVec2]) -> Option<Self> {
+        if directions.iter().any(|plan| plan.length() < LEAST_GAP) {
+            return None;
+        }
         let is_right = |from: &&DVec2| directions.iter().all(|to| from.perp_dot(*to) >= 0.0);
         let is_left = |from: &&DVec2| directions.iter().all(|to| from.perp_dot(*to) <= 0.0);
         let right = directions.iter().find(is_right)?.try_normalize()?;

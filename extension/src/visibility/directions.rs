@@ -1,6 +1,6 @@
 //! Where each feature is seen, what hides one, and the ground that is seen.
 
-use super::live::{View, checked_range, hidden_by_volumes};
+use super::live::{View, checked_range};
 use super::statements::Statements;
 use super::tables::Tables;
 use super::tiles::Tiles;
@@ -43,7 +43,7 @@ fn visible_extent(
     or_raise(live::with_solver(|solver| {
         solver.visible_extent(&query, &mut tiles, &mut extents)
     }));
-    let hidden = hidden_by_volumes(scene, observer.0);
+    let hidden = tiles.hidden_by_volumes(observer.0);
     let mut rows = Vec::new();
     for (sighting, ranges) in extents.iter() {
         let Some(seen) = tiles
@@ -107,7 +107,7 @@ fn hidden_by(
     });
     let mut rows: Vec<_> = together.collect();
     if rows.is_empty() {
-        let alone = hidden_by_volumes(scene, observer.0).remove(&feature_id);
+        let alone = tiles.hidden_by_volumes(observer.0).remove(&feature_id);
         let alone = base::of(&statements, Moment::Query, alone.as_slice());
         rows.extend(alone.into_iter().map(|base| {
             let envelope = base.feature.envelope;

@@ -1,17 +1,13 @@
 //! What can be seen, found by the solver while the query runs.
 
-use super::statements::{Ask, Statements};
-use super::tables::Tables as SceneTables;
 use super::tiles::Tiles;
 use crate::error::{Refusal, or_raise};
 use crate::field_of_view::FieldOfView;
-use crate::snapshot_read::Moment;
-use crate::types::{Point3d, shortest};
+use crate::types::shortest;
 use engine::{PointQuery, PointSolver, Sighting};
 use glam::DVec3;
-use pgrx::{IntoDatum, PgSqlErrorCode};
+use pgrx::PgSqlErrorCode;
 use std::cell::RefCell;
-use std::collections::HashMap;
 
 /// Metres by which the box that preselects all round is larger than the range, so that its rounding
 /// loses nothing in range.
@@ -103,7 +99,7 @@ impl View {
             .collect();
         account.in_view = seen.len();
         if !seen.is_empty() {
-            let hidden = hidden_by_volumes(scene, self.eye);
+            let hidden = tiles.hidden_by_volumes(self.eye);
             seen.retain(|seen| !hidden.contains_key(&seen.id));
         }
         account.hidden = account.in_view - seen.len();
@@ -136,25 +132,9 @@ pub fn with_solver<T>(work: impl FnOnce(&mut PointSolver) -> T) -> T {
     result
 }
 
-/// The features that occlusion volumes hide from an eye, each with one that hides it alone.
-pub fn hidden_by_volumes(scene: &str, eye: DVec3) -> HashMap<i64, i64> {
-    let mut hidden = HashMap::new();
-    let tables = SceneTables::of(scene);
-    if tables.has_volumes() {
-        let eye = Point3d(eye).into_datum().into_iter().collect::<Vec<_>>();
-        let statements = Statements::of(scene, &tables);
-        statements
-            .get(Ask::Hidden)
-            .read(Moment::Query, &eye, |row| {
-                hidden.extend(row.get::<i64>(1).zip(row.get::<i64>(2)));
-            });
-    }
-    hidden
-}
-
 /// A range that is finite and not negative; others raise an error.
 pub fn checked_range(range: f64) -> f64 {
-    if range >= 0.0 && range < f64::INFINITY {
+    if (0.0..f64::INFINITY).contains(&range) {
         return range;
     }
     Refusal::new(

@@ -4,8 +4,11 @@ use crate::scene;
 use pgrx::pg_sys::{self, Oid};
 use std::ffi::{CStr, CString};
 
-/// Columns that visibility queries read, with their types; `None` is `box3d`.
-const READ: [(&CStr, &[(&CStr, Option<Oid>)]); 6] = [
+/// Columns of a table, with their types; `None` is `box3d`.
+type Columns = &'static [(&'static CStr, Option<Oid>)];
+
+/// Tables and columns that visibility queries read.
+const READ: [(&CStr, Columns); 6] = [
     (
         c"feature",
         &[
@@ -57,7 +60,7 @@ const READ: [(&CStr, &[(&CStr, Option<Oid>)]); 6] = [
 ];
 
 /// Those of packed tiles, which a scene made by an older version lacks.
-const DERIVED: [(&CStr, &[(&CStr, Option<Oid>)]); 2] = [
+const DERIVED: [(&CStr, Columns); 2] = [
     (
         c"tile",
         &[
@@ -241,7 +244,7 @@ fn table(namespace: Oid, name: &CStr) -> Option<Oid> {
     is_table.then_some(oid)
 }
 
-fn has_columns(table: Oid, columns: &[(&CStr, Option<Oid>)], box3d: Oid) -> bool {
+fn has_columns(table: Oid, columns: Columns, box3d: Oid) -> bool {
     columns.iter().all(|&(name, type_oid)| {
         // SAFETY: asks the catalog about a table that was found there; a column that is missing has
         // number 0, which has no type.

@@ -8,17 +8,19 @@ use super::statements::{Ask, Statements};
 use super::tables::Tables as SceneTables;
 use crate::error::Refusal;
 use crate::snapshot_read::Moment;
-use crate::types::Box3d;
+use crate::types::{Box3d, Point3d};
 use engine::{Sighting, Tile, TileSource};
+use glam::DVec3;
 use pgrx::pg_sys::Datum;
-use pgrx::{IntoDatum, PgSqlErrorCode, Uuid};
-use std::collections::HashSet;
+use pgrx::{IntoDatum, PgSqlErrorCode, Uuid, check_for_interrupts};
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 /// The tiles that meet a box, under the snapshot of the query: packed ones, read when they are needed,
 /// and one of the features that were edited since.
 pub struct Tiles {
-    statements: Rc<Statements>,
+    pub tables: SceneTables,
+    pub statements: Rc<Statements>,
     bounds: Vec<engine::Box3d>,
     /// As `bounds`, but for what was read from the tables of the scene, which comes last.
     packed: Vec<(i64, Version)>,
@@ -33,6 +35,7 @@ impl Tiles {
     pub fn around(scene: &str, bounds: &engine::Box3d) -> Self {
         let tables = SceneTables::of(scene);
         let mut tiles = Self {
+            tables,
             statements: Statements::of(scene, &tables),
             bounds: Vec::new(),
             packed: Vec::new(),
@@ -89,6 +92,18 @@ impl Tiles {
             let features = base::of(&statements, Moment::Query, &ids);
             self.add(PackedTile::new(features));
         }
+    }
+
+    /// The features that occlusion volumes hide from an eye, each with one that hides it alone.
+    pub fn hidden_by_volumes(&self, eye: DVec3) -> HashMap<i64, i64> {
+        let mut hidden = HashMap::new();
+        if self.tables.has_volumes() {
+            let asked = self.statements.get(Ask::Hidden);
+            asked.read(Moment::Query, &argument(Point3d(eye)), |row| {
+                hidden.extend(row.get::<i64>(1).zip(row.get::<i64>(2)));
+            });
+        }
+        hidden
     }
 
     fn add(&mut self, tile: PackedTile) {
@@ -157,6 +172,8 @@ impl TileSource for Tiles {
     }
 
     fn tile(&mut self, position: usize) -> Result<&Tile, Refusal> {
+        // The solver asks for a tile at each step; nothing else in it can be stopped.
+        check_for_interrupts!();
         if self.tiles[position].is_none() {
             self.tiles[position] = Some(self.load(position)?);
         }

@@ -35,14 +35,19 @@ impl PlanWedge {
         if directions.iter().any(|plan| plan.length() < LEAST_GAP) {
             return None;
         }
-        let is_right = |from: &&DVec2| directions.iter().all(|to| from.perp_dot(*to) >= 0.0);
-        let is_left = |from: &&DVec2| directions.iter().all(|to| from.perp_dot(*to) <= 0.0);
-        let right = directions.iter().find(is_right)?.try_normalize()?;
-        let left = directions.iter().find(is_left)?.try_normalize()?;
-        let is_bounded = right.dot(left) > 0.0 || right.perp_dot(left) > LEAST_GAP;
-        is_bounded.then(|| Self {
-            right: DVec2::from_angle(-SLACK).rotate(right),
-            left: DVec2::from_angle(SLACK).rotate(left),
+        let directions: Vec<DVec2> = directions.iter().map(|plan| plan.normalize()).collect();
+        // Whether one turns less than half a turn from the one to the other, anticlockwise.
+        let reaches = |from: DVec2, to: DVec2| {
+            let turn = from.perp_dot(to);
+            turn > LEAST_GAP || turn >= 0.0 && from.dot(to) > 0.0
+        };
+        let is_right = |from: &&DVec2| directions.iter().all(|&to| reaches(**from, to));
+        let is_left = |to: &&DVec2| directions.iter().all(|&from| reaches(from, **to));
+        let right = directions.iter().find(is_right)?;
+        let left = directions.iter().find(is_left)?;
+        Some(Self {
+            right: DVec2::from_angle(-SLACK).rotate(*right),
+            left: DVec2::from_angle(SLACK).rotate(*left),
         })
     }
 }

@@ -8,6 +8,9 @@ pub static MAX_THREADS: GucSetting<i32> = GucSetting::<i32>::new(0);
 /// Memory for the tiles that a backend keeps, kB.
 static CACHE_SIZE: GucSetting<i32> = GucSetting::<i32>::new(64 * 1024);
 
+/// Whether answers leave out what occlusion volumes hide, besides what live ones do.
+static USE_VOLUMES: GucSetting<bool> = GucSetting::<bool>::new(true);
+
 /// Most threads that can be asked for.
 const MOST_THREADS: i32 = 1024;
 
@@ -33,6 +36,19 @@ pub fn register() {
         GucContext::Userset,
         GucFlags::UNIT_KB,
     );
+    GucRegistry::define_bool_guc(
+        c"pg_occlusion.use_volumes",
+        c"Leaves out of answers what occlusion volumes hide, besides what is found live.",
+        c"Where many volumes overlap, looking them up can take longer than all the rest.",
+        &USE_VOLUMES,
+        GucContext::Userset,
+        GucFlags::default(),
+    );
+}
+
+/// Whether answers leave out what occlusion volumes hide.
+pub fn uses_volumes() -> bool {
+    USE_VOLUMES.get()
 }
 
 /// Bytes of the tiles that a backend keeps.

@@ -51,6 +51,9 @@ INSERT INTO regress_directions.street (area, eye_low, eye_high) VALUES ('{"((849
 INSERT INTO regress_directions.occlusion_volume VALUES (2, 3, 'BOX3D(84990 446995 1, 85010 447005 2)');
 SELECT array_agg(occluder) FROM hidden_by('regress_directions', 3, 'POINT(85000 447000 1.75)');
 SELECT count(*) FROM visible_extent('regress_directions', 'POINT(85000 447000 1.75)', 100) WHERE feature_id = 3;
+SELECT count(*) FROM visible_features('regress_directions', 'POINT(85000 447000 1.75)', 100) WHERE feature_id = 3;
+SET LOCAL pg_occlusion.use_volumes = off;
+SELECT count(*) FROM visible_features('regress_directions', 'POINT(85000 447000 1.75)', 100) WHERE feature_id = 3;
 ROLLBACK;
 
 -- The isovist is a polygon of its own kind: near walls bound it, and the range where there are none.

@@ -7,6 +7,7 @@ use super::packed_tile::PackedTile;
 use super::statements::{Ask, Statements};
 use super::tables::Tables as SceneTables;
 use crate::error::Refusal;
+use crate::settings;
 use crate::snapshot_read::Moment;
 use crate::types::{Box3d, Point3d};
 use engine::{Sighting, Tile, TileSource};
@@ -97,7 +98,7 @@ impl Tiles {
     /// The features that occlusion volumes hide from an eye, each with one that hides it alone.
     pub fn hidden_by_volumes(&self, eye: DVec3) -> HashMap<i64, i64> {
         let mut hidden = HashMap::new();
-        if self.tables.has_volumes() {
+        if settings::uses_volumes() && self.tables.has_volumes() {
             let asked = self.statements.get(Ask::Hidden);
             asked.read(Moment::Query, &argument(Point3d(eye)), |row| {
                 hidden.extend(row.get::<i64>(1).zip(row.get::<i64>(2)));

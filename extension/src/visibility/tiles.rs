@@ -20,8 +20,8 @@ use std::rc::Rc;
 /// The tiles that meet a box, under the snapshot of the query: packed ones, read when they are needed,
 /// and one of the features that were edited since.
 pub struct Tiles {
-    pub tables: SceneTables,
-    pub statements: Rc<Statements>,
+    tables: SceneTables,
+    statements: Rc<Statements>,
     bounds: Vec<engine::Box3d>,
     /// As `bounds`, but for what was read from the tables of the scene, which comes last.
     packed: Vec<(i64, Version)>,

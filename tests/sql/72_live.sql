@@ -159,6 +159,14 @@ INSERT INTO public.regress_heir (id, class, envelope) VALUES (77, 'Building', 'B
 SELECT pg_temp.seen();
 SELECT pg_temp.outcome($$SELECT pack_tiles('regress_live')$$);
 ROLLBACK;
+-- So is a table that became a part of another one.
+BEGIN;
+CREATE TABLE public.regress_whole (LIKE regress_live.solid_column INCLUDING GENERATED INCLUDING CONSTRAINTS) PARTITION BY LIST (grounded);
+ALTER TABLE public.regress_whole ATTACH PARTITION regress_live.solid_column DEFAULT;
+DELETE FROM public.regress_whole;
+SELECT pg_temp.seen();
+SELECT pg_temp.outcome($$SELECT pack_tiles('regress_live')$$);
+ROLLBACK;
 -- A first packing needs to see the latest.
 SELECT create_scene('regress_late');
 BEGIN ISOLATION LEVEL REPEATABLE READ;

@@ -5,7 +5,7 @@
 //! moment is there a change that is not in the log. A change of what hides in a feature is logged with
 //! no place: the feature may be elsewhere by the time that others see it.
 
-use super::tables::{has_pages, relation};
+use super::tables::{has_pages, opened, relation};
 use crate::direct_call::direct_function;
 use crate::error::Refusal;
 use crate::scene::quoted;
@@ -184,18 +184,14 @@ struct Log {
 }
 
 impl Log {
-    /// That of the scene of a table; `None` where no tiles were ever packed, and where the table is a
-    /// part of another one, since tiles are not relied on then.
+    /// That of the scene of a table; `None` where no tiles were ever packed, and in a schema that is no
+    /// scene, where a part of a scene's table may be: tiles are not relied on then.
     fn of(table: pg_sys::Relation) -> Option<Self> {
         // SAFETY: the relation is open while its trigger runs.
-        let (namespace, is_part) = unsafe {
-            (
-                (*(*table).rd_rel).relnamespace,
-                (*(*table).rd_rel).relispartition,
-            )
-        };
+        let namespace = unsafe { (*(*table).rd_rel).relnamespace };
         let (tile, edit) = (relation(namespace, c"tile"), relation(namespace, c"edit"));
-        if is_part || tile == pg_sys::InvalidOid || !has_pages(tile) {
+        let is_scene = tile != pg_sys::InvalidOid && edit != pg_sys::InvalidOid;
+        if !is_scene || !has_pages(tile) {
             return None;
         }
         // SAFETY: the schema of an open relation has a name.
@@ -296,14 +292,8 @@ fn as_owner_of(table: Oid, work: impl FnOnce()) {
 }
 
 fn owner(table: Oid) -> Oid {
-    let lock = pg_sys::AccessShareLock as pg_sys::LOCKMODE;
-    // SAFETY: opens a table that was found in the catalog.
-    unsafe {
-        let open = pg_sys::relation_open(table, lock);
-        let owner = (*(*open).rd_rel).relowner;
-        pg_sys::relation_close(open, lock);
-        owner
-    }
+    // SAFETY: the table is open.
+    opened(table, |table| unsafe { (*table.rd_rel).relowner })
 }
 
 fn bits(place: Box3d) -> [u64; 6] {

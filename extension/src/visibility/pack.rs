@@ -9,7 +9,7 @@ use super::edit_log;
 use super::packed_tile::PackedTile;
 use super::statements::{Ask, Statements};
 use super::tables::Tables;
-use crate::error::Refusal;
+use crate::error::{Refusal, or_raise};
 use crate::scene::{count, failed, quoted, run};
 use crate::snapshot_read::Moment;
 use crate::types::Box3d;
@@ -110,7 +110,9 @@ impl Packing {
                  and DELETE on tile, DELETE on edit, and UPDATE on scene_info.",
             ));
         }
-        if self.is_first && !sees_the_latest() {
+        // Without a tile in sight, the last edits may be from before there was a log: a packing that was
+        // rolled back leaves pages, and no tile.
+        if !sees_the_latest() && self.count("tile") == 0 {
             return Err(Refusal::new(
                 PgSqlErrorCode::ERRCODE_INVALID_TRANSACTION_STATE,
                 format!("scene \"{name}\" cannot be packed for the first time in this transaction"),
@@ -146,8 +148,9 @@ impl Packing {
     }
 
     fn pack_all(&self) -> i64 {
-        self.delete("DELETE FROM {}.edit");
-        self.delete("DELETE FROM {}.tile");
+        for table in ["edit", "tile"] {
+            run(&format!("DELETE FROM {}.{table}", self.scene), &[]);
+        }
         self.write(&self.envelopes(
             &format!("SELECT id, envelope FROM {}.feature", self.scene),
             &[],
@@ -228,7 +231,7 @@ impl Packing {
             .get(Ask::Content)
             .read(Moment::Now, &argument, |row| {
                 let tile = row.get::<&[u8]>(1).map(PackedTile::from_bytes);
-                if let Some(tile) = tile.map(crate::error::or_raise) {
+                if let Some(tile) = tile.map(or_raise) {
                     ids.extend((0..tile.tile.len()).map(|position| tile.tile.feature(position).0));
                 }
             });
@@ -262,10 +265,6 @@ impl Packing {
         });
         let rows = rows.unwrap_or_else(|error| failed(&error)).into_iter();
         rows.filter_map(|(id, value)| Some((id?, value))).collect()
-    }
-
-    fn delete(&self, statement: &str) {
-        run(&statement.replace("{}", &self.scene), &[]);
     }
 
     fn count(&self, table: &str) -> usize {

@@ -135,17 +135,11 @@ impl Tables {
         self.tile != pg_sys::InvalidOid && self.edit != pg_sys::InvalidOid
     }
 
-    /// Whether every edit is written to the log: not so of tables that have parts or heirs, whose rows
-    /// come and go without triggers.
+    /// Whether every edit is written to the log.
     pub fn are_watched(&self) -> bool {
-        SOURCES.iter().all(|name| {
-            let oid = relation(self.namespace, name);
-            opened(oid, |table| {
-                // SAFETY: the table is open.
-                let row = unsafe { &*table.rd_rel };
-                row.relkind as u8 == pg_sys::RELKIND_RELATION && !row.relhassubclass
-            })
-        })
+        SOURCES
+            .iter()
+            .all(|name| opened(relation(self.namespace, name), is_watched))
     }
 
     /// Whether the current user may read all rows of tiles, edits and what they are made of.
@@ -220,8 +214,16 @@ pub fn has_pages(table: Oid) -> bool {
     })
 }
 
+/// Whether every edit of an open table is written to the log: not so of one that has parts or heirs,
+/// whose rows come and go without triggers, or that is a part itself.
+fn is_watched(table: &mut pg_sys::RelationData) -> bool {
+    // SAFETY: the table is open.
+    let row = unsafe { &*table.rd_rel };
+    row.relkind as u8 == pg_sys::RELKIND_RELATION && !row.relhassubclass && !row.relispartition
+}
+
 /// What `look` finds in a table while it is open.
-fn opened<T>(table: Oid, look: impl FnOnce(&mut pg_sys::RelationData) -> T) -> T {
+pub fn opened<T>(table: Oid, look: impl FnOnce(&mut pg_sys::RelationData) -> T) -> T {
     let lock = pg_sys::AccessShareLock as pg_sys::LOCKMODE;
     // SAFETY: opens a table that was found in the catalog, or raises an error if it has gone.
     unsafe {

@@ -13,9 +13,10 @@ const EYES: &str =
 
 /// A scene of houses in a square, packed, with a session that has looked at all of it.
 struct Stage {
-    scene: TestScene,
     reader: Client,
     writer: Client,
+    // Dropped last: a session that is left in a transaction would keep it from being dropped.
+    scene: TestScene,
 }
 
 impl Stage {
@@ -211,6 +212,23 @@ fn a_first_packing_waits_for_those_who_edit_unlogged() {
     assert_eq!(now, by_tables(&mut stage.writer, &name));
     stage.write(OPEN);
     assert_ne!(stage.read(), now, "from now on edits are logged");
+}
+
+#[test]
+fn an_old_snapshot_cannot_pack_what_was_edited_unlogged() {
+    let mut stage = Stage::new("sessions_unlogged");
+    let name = stage.scene.name.clone();
+    stage.write("TRUNCATE {}.tile");
+    let begin = format!("BEGIN ISOLATION LEVEL REPEATABLE READ; SELECT FROM {name}.feature");
+    stage.reader.batch_execute(&begin).unwrap();
+    stage.write(OPEN);
+    // A first packing that never was leaves pages behind, and no tile.
+    stage.write("BEGIN; SELECT occlusion.pack_tiles('{}'); ROLLBACK");
+    let pack = format!("SELECT occlusion.pack_tiles('{name}')");
+    let refused = stage.reader.batch_execute(&pack).unwrap_err();
+    assert_eq!(refused.code().map(|code| code.code()), Some("25000"));
+    stage.reader.batch_execute("ROLLBACK").unwrap();
+    assert_eq!(stage.read(), by_tables(&mut stage.writer, &name));
 }
 
 #[test]

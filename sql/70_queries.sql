@@ -68,19 +68,6 @@ AS 'MODULE_PATHNAME', 'visible_features_all_round_wrapper';
 COMMENT ON FUNCTION occlusion.visible_features(text, occlusion.point3d, float8) IS
     'features within range of the observer, all round, that are not hidden from there; holds every visible one';
 
-CREATE OR REPLACE FUNCTION occlusion.require_range(range float8) RETURNS void
-LANGUAGE plpgsql IMMUTABLE STRICT PARALLEL SAFE
-SET search_path = pg_catalog, pg_temp AS $$
-BEGIN
-    IF NOT (range >= 0 AND range < 'infinity') THEN
-        RAISE EXCEPTION 'range % is out of bounds', range
-            USING ERRCODE = 'invalid_parameter_value',
-                  DETAIL = 'A range is a finite number of metres, 0 or more.';
-    END IF;
-END
-$$;
-COMMENT ON FUNCTION occlusion.require_range(float8) IS 'raises an error unless a range is finite and not negative';
-
 CREATE OR REPLACE FUNCTION occlusion.explain_sight(scene text, cone occlusion.view_cone) RETURNS SETOF text
 LANGUAGE c STABLE STRICT PARALLEL SAFE
 AS 'MODULE_PATHNAME', 'explain_sight_cone_wrapper';

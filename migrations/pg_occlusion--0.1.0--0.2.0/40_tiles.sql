@@ -7,4 +7,4 @@ DROP FUNCTION occlusion.make_city(text, integer, bigint, integer, integer);
 -- include sql/50_city.sql
 -- include sql/70_queries.sql
 
-DROP FUNCTION occlusion.visible_features_statement(text, boolean);
+DROP FUNCTION occlusion.visible_features_statement(text, boolean), occlusion.require_range(float8);

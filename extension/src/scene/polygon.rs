@@ -1,6 +1,6 @@
-//! Core's `polygon` as text: `((x,y),(x,y),…)`.
+//! Polygons, and core's `polygon` as text: `((x,y),(x,y),…)`.
 
-use geo::{Coord, LineString, Polygon};
+use geo::{Coord, LineString, Polygon, Rect};
 use glam::DVec2;
 
 /// A ring as core writes it; the closing vertex is left out.
@@ -32,6 +32,16 @@ pub fn area(rings: &[String]) -> Option<Polygon<f64>> {
     let mut rings = rings.iter().map(|text| ring(text));
     let outer = rings.next()??;
     Some(Polygon::new(outer, rings.collect::<Option<_>>()?))
+}
+
+/// The plan of a box.
+pub fn rectangle(bounds: &engine::Box3d) -> Polygon<f64> {
+    let corner = |x: f64, y: f64| Coord { x, y };
+    Rect::new(
+        corner(bounds.min.x, bounds.min.y),
+        corner(bounds.max.x, bounds.max.y),
+    )
+    .to_polygon()
 }
 
 fn ring(text: &str) -> Option<LineString<f64>> {

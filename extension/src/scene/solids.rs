@@ -37,7 +37,7 @@ impl Solids {
             );
             for row in client.update(&boxes, None, arguments)? {
                 let bounds = row.get::<Box3d>(2)?.map(|bounds| bounds.0);
-                let footprint = bounds.map(|bounds| rectangle(&bounds));
+                let footprint = bounds.map(|bounds| polygon::rectangle(&bounds));
                 let (bottom, top) = (bounds.map(|b| b.min.z), bounds.map(|b| b.max.z));
                 solids.add(row.get(1)?, footprint, bottom, top, row.get(3)?);
             }
@@ -100,13 +100,4 @@ impl Solids {
             });
         }
     }
-}
-
-fn rectangle(bounds: &engine::Box3d) -> geo::Polygon<f64> {
-    let corner = |x: f64, y: f64| geo::Coord { x, y };
-    geo::Rect::new(
-        corner(bounds.min.x, bounds.min.y),
-        corner(bounds.max.x, bounds.max.y),
-    )
-    .to_polygon()
 }

@@ -1,11 +1,12 @@
 //! [`BaseFeature`], a feature as the tables of a scene have it.
 
 use super::statements::{Ask, Statements};
+use crate::scene::polygon;
 use crate::snapshot_read::{Moment, Row};
 use crate::types::{Box3d, ring, rings};
 use engine::{SolidColumn, TileFeature};
 use geo::orient::Direction;
-use geo::{Coord, CoordsIter, LineString, Orient, Polygon, Rect};
+use geo::{Coord, CoordsIter, LineString, Orient, Polygon};
 use glam::DVec2;
 use pgrx::IntoDatum;
 use pgrx::pg_sys::Datum;
@@ -130,12 +131,10 @@ pub fn column_of(row: &Row) -> Option<SolidColumn> {
 
 /// A box as a column.
 pub fn upright(bounds: &engine::Box3d) -> SolidColumn {
-    let corner = |x: f64, y: f64| Coord { x, y };
-    let (min, max) = (bounds.min, bounds.max);
     SolidColumn {
-        footprint: Rect::new(corner(min.x, min.y), corner(max.x, max.y)).to_polygon(),
-        bottom: min.z,
-        top: max.z,
+        footprint: polygon::rectangle(bounds),
+        bottom: bounds.min.z,
+        top: bounds.max.z,
         grounded: true,
     }
 }

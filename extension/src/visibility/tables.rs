@@ -7,7 +7,8 @@ use std::ffi::{CStr, CString};
 /// Columns of a table, with their types; `None` is `box3d`.
 type Columns = &'static [(&'static CStr, Option<Oid>)];
 
-/// Tables and columns that visibility queries read.
+/// Tables and columns that visibility queries read: of those that `scene_columns()` lists, and looked up
+/// without a statement, since each query does.
 const READ: [(&CStr, Columns); 6] = [
     (
         c"feature",

@@ -41,7 +41,7 @@ BEGIN
         COMMENT ON COLUMN %1$I.edit.feature IS 'feature that was edited';
         COMMENT ON COLUMN %1$I.edit.place IS 'outer envelope before or after; NULL: wherever it is';
     $ddl$, scene);
-    FOREACH source IN ARRAY ARRAY['feature', 'solid_column', 'inner_envelope'] LOOP
+    FOREACH source IN ARRAY ARRAY['feature', 'solid_column', 'inner_envelope', 'mesh'] LOOP
         FOREACH moment IN ARRAY ARRAY['before', 'after'] LOOP
             EXECUTE format($ddl$
                 CREATE TRIGGER log_edit_%2$s %2$s INSERT OR UPDATE OR DELETE ON %1$I.%3$I

@@ -12,8 +12,8 @@ use std::time::Instant;
 
 use engine::{
     Box3d, CityLayout, Extents, LocalGround, OuterPrism, PointQuery, PointSolver, PointTarget,
-    Site, SolidColumn, Street, Tile, TileFeature, TileSource, ViewRegionOptions, generated_city,
-    open_space,
+    Roof, Site, SolidColumn, Street, TargetShape, Tile, TileFeature, TileSource, ViewRegionOptions,
+    generated_city, open_space,
 };
 use formats::{ReadOptions, read_bytes};
 use glam::{DVec2, DVec3};
@@ -53,6 +53,13 @@ fn main() {
         features.len(),
         tiles.tiles.len(),
         begun.elapsed().as_secs_f64()
+    );
+    let roofs: Vec<&Roof> = features.iter().filter_map(|f| f.roof.as_ref()).collect();
+    println!(
+        "{} roofs, {} of them hide, {} edges",
+        roofs.len(),
+        roofs.iter().filter(|roof| roof.hides).count(),
+        roofs.iter().map(|roof| roof.edges.len()).sum::<usize>()
     );
     let mut solver = PointSolver::default();
     for prisms in [false, true] {
@@ -135,7 +142,7 @@ fn hiders(
         let target = PointTarget {
             id: target.id,
             envelope: target.envelope,
-            outline: &target.outline,
+            shape: TargetShape::Prism(&target.outline),
         };
         let Ok(hiders) = solver.hidden_by(eye, &target, tiles);
         hidden += usize::from(hiders.is_some());
@@ -390,6 +397,7 @@ fn made(count: usize) -> (Vec<TileFeature>, Vec<Street>) {
             id,
             envelope: feature.envelope,
             outline: outline(feature.mesh.vertices.iter().copied()),
+            roof: Roof::of(&feature.mesh, &feature.envelope),
             columns: vec![feature.column],
         })
         .collect();
@@ -411,6 +419,7 @@ fn read(file: &str) -> (Vec<TileFeature>, Vec<Street>) {
         id,
         envelope: house.envelope(),
         outline: outline(house.points.iter().copied()),
+        roof: Roof::of(&house.mesh, &house.envelope()),
         columns: columns(
             house,
             ground.holds(&house.envelope(), house.envelope().min.z),

@@ -20,6 +20,7 @@ mod mesh;
 mod outer_prism;
 mod point_visibility;
 mod predicates;
+mod roof;
 mod shadow_region;
 mod solid;
 mod solid_column;
@@ -48,8 +49,9 @@ pub use mesh::{
 pub use outer_prism::OuterPrism;
 pub use point_visibility::{
     AzimuthRange, Extents, Hider, MalformedTile, PointQuery, PointSolver, PointTarget, Sighting,
-    Tile, TileFeature, TileSource, neighbourhoods, visible_from_point,
+    TargetShape, Tile, TileFeature, TileSource, neighbourhoods, visible_from_point,
 };
+pub use roof::Roof;
 pub use shadow_region::ShadowRegion;
 pub use solid::{Hides, Repair, Solid};
 pub use solid_column::SolidColumn;

@@ -13,7 +13,7 @@ use crate::{
 /// A feature's surface with what hides others in it.
 #[derive(Clone, Debug)]
 pub struct Solid {
-    /// The surface, closed at the foot where only its bottom was missing.
+    /// The surface, with its seams closed, and closed at the foot where only its bottom was missing.
     pub mesh: TriangleMesh,
     /// What was added to close it, if something was.
     pub repair: Option<Repair>,
@@ -46,11 +46,12 @@ pub struct Hides {
 }
 
 impl Solid {
-    /// Closes the surface of a building at its foot, where it lacks just a bottom, and looks for what
-    /// hides others in the surface. Only what stands on the ground may be closed; whether it does
+    /// Closes the seams of a surface, and that of a building at its foot, where it lacks just a bottom,
+    /// and looks for what hides others in the surface. Only what stands on the ground may be closed; whether it does
     /// shows in its neighbours.
     #[must_use]
     pub fn of(mut mesh: TriangleMesh, class: &str, options: &ColumnOptions) -> Self {
+        mesh.close_seams();
         let cap = is_building(class).then(|| mesh.foot_cap()).flatten();
         let repair = cap.and_then(|cap| {
             let triangles = cap.len();

@@ -5,8 +5,8 @@ use std::convert::Infallible;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 use engine::{
-    Box3d, Extents, PointQuery, PointSolver, PointTarget, SolidColumn, Tile, TileFeature,
-    TileSource, ViewSector,
+    Box3d, Extents, PointQuery, PointSolver, PointTarget, SolidColumn, TargetShape, Tile,
+    TileFeature, TileSource, ViewSector,
 };
 use geo::{LineString, Polygon};
 use glam::{DVec2, DVec3};
@@ -79,7 +79,10 @@ impl Scene {
         let target = PointTarget {
             id: target.id,
             envelope: target.envelope,
-            outline: &target.outline,
+            shape: match target.outline[..] {
+                [] => TargetShape::Envelope,
+                _ => TargetShape::Prism(&target.outline),
+            },
         };
         let Ok(found) = PointSolver::default().hidden_by(eye, &target, self);
         found.map(|hiders| hiders.iter().map(|hider| hider.id).collect())
@@ -104,6 +107,7 @@ fn house(id: i64, min: [f64; 2], max: [f64; 2], top: f64) -> TileFeature {
         id,
         envelope: Box3d::new(corner(min, 0.0), corner(max, top)),
         outline: Vec::new(),
+        roof: None,
         columns: vec![SolidColumn {
             footprint: Polygon::new(ring, Vec::new()),
             bottom: 0.0,

@@ -34,6 +34,7 @@ fn rectangle([west, south]: [f64; 2], [east, north]: [f64; 2]) -> [[f64; 2]; 4] 
 fn house(id: i64, min: [f64; 2], max: [f64; 2], top: f64) -> TileFeature {
     let columns = vec![column(&[&rectangle(min, max)], 0.0, top, true)];
     TileFeature {
+        roof: None,
         columns,
         ..thing(id, min, max, [0.0, top])
     }
@@ -46,6 +47,7 @@ fn thing(id: i64, min: [f64; 2], max: [f64; 2], heights: [f64; 2]) -> TileFeatur
         id,
         envelope: Box3d::new(corner(min, heights[0]), corner(max, heights[1])),
         outline: Vec::new(),
+        roof: None,
         columns: Vec::new(),
     }
 }
@@ -145,10 +147,12 @@ fn a_gap_as_wide_as_a_rounding_is_a_gap() {
             id,
             envelope: Box3d::around(ends).unwrap(),
             outline: Vec::new(),
+            roof: None,
             columns: Vec::new(),
         }
     };
     let house = |id: i64, places: Vec<(f64, f64)>| TileFeature {
+        roof: None,
         columns: vec![SolidColumn {
             footprint: Polygon::new(LineString::from(places.clone()), Vec::new()),
             bottom: 0.0,
@@ -202,6 +206,7 @@ fn a_courtyard_is_not_inside_and_its_far_wall_hides() {
     let mut inner = rectangle([-10.0, -10.0], [10.0, 10.0]);
     inner.reverse();
     let block = TileFeature {
+        roof: None,
         columns: vec![column(&[&outer, &inner], 0.0, 15.0, true)],
         ..thing(1, [-20.0, -20.0], [20.0, 20.0], [0.0, 15.0])
     };
@@ -219,6 +224,7 @@ fn a_courtyard_is_not_inside_and_its_far_wall_hides() {
 #[test]
 fn under_a_bridge_one_looks_through() {
     let deck = |grounded| TileFeature {
+        roof: None,
         columns: vec![column(
             &[&rectangle([-30.0, 10.0], [30.0, 20.0])],
             5.0,
@@ -302,6 +308,7 @@ fn tiles_do_not_change_the_answer_and_hidden_ones_are_not_read() {
             id,
             envelope: feature.envelope,
             outline: Vec::new(),
+            roof: None,
             columns: vec![feature.column],
         })
         .collect();

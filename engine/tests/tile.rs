@@ -1,7 +1,7 @@
 //! Tiles as bytes, and which features share one.
 
 use engine::{
-    Box3d, CityFeature, CityLayout, PointQuery, PointSolver, Tile, TileFeature, TileSource,
+    Box3d, CityFeature, CityLayout, PointQuery, PointSolver, Roof, Tile, TileFeature, TileSource,
     generated_city, neighbourhoods,
 };
 use glam::DVec3;
@@ -15,6 +15,7 @@ fn city(features: usize) -> Vec<TileFeature> {
         id,
         envelope: house.envelope,
         outline: house.mesh.vertices.iter().map(|v| v.truncate()).collect(),
+        roof: Roof::of(&house.mesh, &house.envelope),
         columns: vec![house.column],
     };
     (0..).zip(houses.features()).map(feature).collect()
@@ -112,7 +113,7 @@ fn bytes_that_are_no_tile_are_told() {
         told(short),
         format!("a tile of {found} bytes should have {expected}")
     );
-    let at_tree = 4 + 5 * 4;
+    let at_tree = 4 + 7 * 4;
     let mut loose = bytes.clone();
     loose[at_tree..at_tree + 8].copy_from_slice(&f64::NAN.to_le_bytes());
     assert_eq!(told(&loose), "boxes of a tile are not in order");

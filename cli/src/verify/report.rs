@@ -64,6 +64,7 @@ impl Report<'_> {
             "in_range": tally.in_range,
             "returned": tally.returned,
             "visible": tally.visible,
+            "seen_by_ray": tally.seen_by_ray,
             "over_estimate": tally.over_estimate(),
             "truth": "mesh",
             "hidden": tally.hidden,
@@ -104,7 +105,14 @@ impl Report<'_> {
                 format!("{} within {} m", grouped(tally.in_range), verify.range),
             ),
             ("returned", grouped(tally.returned)),
-            ("truly visible", grouped(tally.visible)),
+            (
+                "truly visible",
+                format!(
+                    "{}, {} of them by rays alone",
+                    grouped(tally.visible),
+                    grouped(tally.seen_by_ray)
+                ),
+            ),
             ("Q (mesh truth)", self.quality()),
             ("hidden", pairs(tally.hidden)),
             (

@@ -32,9 +32,11 @@ pub struct View {
     pub in_range: usize,
     /// In the answer.
     pub returned: usize,
-    /// Seen in the item buffer.
+    /// Seen in the item buffer, or by a ray.
     pub visible: usize,
-    /// Not seen in the item buffer.
+    /// Of these, returned and seen by a ray alone: the item buffer has no pixel there.
+    pub seen_by_ray: usize,
+    /// Not seen.
     pub hidden: usize,
     /// Hidden by a single convex piece.
     pub hidden_by_one: usize,
@@ -56,6 +58,14 @@ struct Candidate {
     returned: bool,
     sighting: Option<Sighting>,
     hidden_by_one: bool,
+}
+
+/// What was found out about a candidate.
+#[derive(Default)]
+struct Finding {
+    rays: usize,
+    seen_by_ray: bool,
+    fault: Option<Fault>,
 }
 
 /// Looks around in one scene.
@@ -92,22 +102,28 @@ impl<'a> Checker<'a> {
         let seen = self.buffer.seen(eye)?;
         let candidates = self.candidates(eye, range, answer, &seen);
         let count = |is: fn(&Candidate) -> bool| candidates.iter().filter(|c| is(c)).count();
-        let left_out: Vec<&Candidate> = candidates.iter().filter(|c| !c.returned).collect();
-        let found: Vec<(usize, Option<Fault>)> = left_out
+        let findings: Vec<Finding> = candidates
             .par_iter()
-            .map(|candidate| self.challenge(eye, candidate))
+            .map(|candidate| self.examine(eye, candidate))
             .collect();
+        let sum = |of: fn(&Finding) -> usize| findings.iter().map(of).sum::<usize>();
+        let drawn = count(|c| c.sighting.is_some());
+        let seen_by_ray = sum(|finding| usize::from(finding.seen_by_ray));
         Ok(View {
             in_range: candidates.len(),
             returned: answer.len(),
-            visible: count(|c| c.sighting.is_some()),
-            hidden: count(|c| c.sighting.is_none()),
+            visible: drawn + seen_by_ray,
+            seen_by_ray,
+            hidden: candidates.len() - drawn - seen_by_ray,
             hidden_by_one: count(|c| c.hidden_by_one),
             left_out_by_one: count(|c| c.hidden_by_one && !c.returned),
             left_out: count(|c| c.sighting.is_none() && !c.returned),
             disputed: count(|c| c.sighting.is_some() && !c.returned),
-            rays: found.iter().map(|(rays, _)| rays).sum(),
-            faults: found.into_iter().filter_map(|(_, fault)| fault).collect(),
+            rays: sum(|finding| finding.rays),
+            faults: findings
+                .into_iter()
+                .filter_map(|finding| finding.fault)
+                .collect(),
         })
     }
 
@@ -136,9 +152,26 @@ impl<'a> Checker<'a> {
             .collect()
     }
 
+    /// Casts rays at a feature of which the item buffer does not say enough: that was left out, or
+    /// returned and not drawn.
+    fn examine(&self, eye: [f64; 3], candidate: &Candidate) -> Finding {
+        if !candidate.returned {
+            return self.challenge(eye, candidate);
+        }
+        if candidate.sighting.is_some() {
+            return Finding::default();
+        }
+        let (rays, target) = self.aim(eye, candidate);
+        Finding {
+            rays,
+            seen_by_ray: target.is_some(),
+            fault: None,
+        }
+    }
+
     /// Tries to see a feature that was left out: through the pixel where it was drawn, and by rays
-    /// all over its surface. Returns how many rays it took.
-    fn challenge(&self, eye: [f64; 3], candidate: &Candidate) -> (usize, Option<Fault>) {
+    /// all over its surface.
+    fn challenge(&self, eye: [f64; 3], candidate: &Candidate) -> Finding {
         let fault = |target: [f64; 3], how| Fault::FalseOcclusion {
             feature: self.scene.features[candidate.position].to_string(),
             eye,
@@ -151,20 +184,32 @@ impl<'a> Checker<'a> {
             let hit = self.truth.caster.first_hit(eye, direction);
             if hit.is_some_and(|hit| hit.ids.contains(&id)) {
                 let target = std::array::from_fn(|axis| eye[axis] + direction[axis]);
-                return (
-                    1,
-                    Some(fault(target, "a pixel of the item buffer, recast exactly")),
-                );
+                let how = "a pixel of the item buffer, recast exactly";
+                return Finding {
+                    rays: 1,
+                    seen_by_ray: false,
+                    fault: Some(fault(target, how)),
+                };
             }
         }
+        let (rays, target) = self.aim(eye, candidate);
+        let how = "a ray at its surface, cast exactly";
+        Finding {
+            rays,
+            seen_by_ray: false,
+            fault: target.map(|target| fault(target, how)),
+        }
+    }
+
+    /// Casts rays at points all over the surface of a feature until one gets there; returns how many
+    /// it took, and which point can be seen.
+    fn aim(&self, eye: [f64; 3], candidate: &Candidate) -> (usize, Option<[f64; 3]>) {
+        let id = number(candidate.position);
         let targets = &self.truth.targets[candidate.position];
         let is_clear =
             |&target: &[f64; 3]| self.truth.caster.is_clear(eye, target, Some(id)) == Sight::Clear;
         match targets.iter().position(is_clear) {
-            Some(place) => (
-                place + 1,
-                Some(fault(targets[place], "a ray at its surface, cast exactly")),
-            ),
+            Some(place) => (place + 1, Some(targets[place])),
             None => (targets.len(), None),
         }
     }

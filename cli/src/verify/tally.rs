@@ -13,6 +13,8 @@ pub struct Tally {
     pub returned: usize,
     /// Features seen.
     pub visible: usize,
+    /// Of these, seen by rays alone.
+    pub seen_by_ray: usize,
     /// Features not seen.
     pub hidden: usize,
     /// Features that a single convex piece hides.
@@ -36,6 +38,7 @@ impl Tally {
         self.in_range += view.in_range;
         self.returned += view.returned;
         self.visible += view.visible;
+        self.seen_by_ray += view.seen_by_ray;
         self.hidden += view.hidden;
         self.hidden_by_one += view.hidden_by_one;
         self.left_out_by_one += view.left_out_by_one;

@@ -11,6 +11,7 @@ mod growth;
 mod inner_envelope;
 mod mesh_defect;
 mod net;
+mod seams;
 mod triangle_mesh;
 mod triangulate;
 mod winding_number;

@@ -13,12 +13,14 @@ use crate::Box3d;
 /// First number of the form; another form gets another one.
 const FORM: u32 = 1;
 
-/// Bytes of a node, a feature, a column, a ring and a corner.
+/// Bytes of a node, a feature, a column, a ring, a corner, and an edge and a corner of a roof.
 const NODE: usize = 6 * 8 + 2 * 4;
-const FEATURE: usize = 8 + 6 * 8 + 4 * 4;
+const FEATURE: usize = 8 + 6 * 8 + 8 * 4;
 const COLUMN: usize = 8 + 2 * 4;
 const RING: usize = 2 * 4;
 const CORNER: usize = 2 * 8 + 1;
+const RIDGE: usize = 2 * 4;
+const PEAK: usize = 3 * 8;
 
 /// Bytes that are no tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -61,6 +63,8 @@ impl Tile {
             bytes.bounds(&feature.envelope);
             bytes.range(&feature.outline);
             bytes.range(&feature.columns);
+            bytes.range(&feature.ridges);
+            bytes.range(&feature.crests);
         }
         for column in &self.columns {
             bytes.real(column.top);
@@ -72,6 +76,13 @@ impl Tile {
         for corner in &self.corners {
             bytes.real(corner.x);
             bytes.real(corner.y);
+        }
+        for &[from, to] in &self.ridges {
+            bytes.number(from);
+            bytes.number(to);
+        }
+        for peak in &self.peaks {
+            bytes.point(*peak);
         }
         bytes.0.extend(self.buried.iter().map(|&is| u8::from(is)));
         bytes.0
@@ -87,7 +98,7 @@ impl Tile {
         if form != FORM {
             return Err(MalformedTile::Form(form));
         }
-        let mut counts = Counts([0; 5]);
+        let mut counts = Counts([0; 7]);
         for count in &mut counts.0 {
             *count = reader.checked_number().unwrap_or(0) as usize;
         }
@@ -115,6 +126,8 @@ impl Tile {
             self.columns.len(),
             self.rings.len(),
             self.corners.len(),
+            self.ridges.len(),
+            self.peaks.len(),
         ])
     }
 
@@ -125,6 +138,8 @@ impl Tile {
         for feature in &self.features {
             within(&feature.outline, corners, "outlines")?;
             within(&feature.columns, self.columns.len(), "columns")?;
+            within(&feature.ridges, self.ridges.len(), "roofs")?;
+            within(&feature.crests, self.ridges.len(), "roofs")?;
         }
         for column in &self.columns {
             within(&column.rings, self.rings.len(), "rings")?;
@@ -132,8 +147,13 @@ impl Tile {
         for ring in &self.rings {
             within(ring, corners, "corners")?;
         }
+        let peaks = self.peaks.len();
+        for &end in self.ridges.as_flattened() {
+            within(&(end..end), peaks.saturating_sub(1), "corners of roofs")?;
+        }
         let are_finite = self.columns.iter().all(|column| column.top.is_finite())
-            && self.corners.iter().all(|corner| corner.is_finite());
+            && self.corners.iter().all(|corner| corner.is_finite())
+            && self.peaks.iter().all(|peak| peak.is_finite());
         in_order(are_finite, "coordinates")
     }
 
@@ -168,13 +188,13 @@ impl Tile {
     }
 }
 
-/// How many nodes, features, columns, rings and corners there are.
-struct Counts([usize; 5]);
+/// How many nodes, features, columns, rings and corners there are, and of roofs, edges and corners.
+struct Counts([usize; 7]);
 
 impl Counts {
     /// Bytes of a tile with so many.
     fn length(&self) -> usize {
-        let sizes = [NODE, FEATURE, COLUMN, RING, CORNER];
+        let sizes = [NODE, FEATURE, COLUMN, RING, CORNER, RIDGE, PEAK];
         let items = self.0.iter().zip(sizes);
         // Counts are 32 bits wide.
         4 + 4 * self.0.len() + items.map(|(count, size)| count * size).sum::<usize>()
@@ -213,12 +233,12 @@ impl Bytes {
     }
 
     fn bounds(&mut self, bounds: &Box3d) {
-        for real in bounds
-            .min
-            .to_array()
-            .into_iter()
-            .chain(bounds.max.to_array())
-        {
+        self.point(bounds.min);
+        self.point(bounds.max);
+    }
+
+    fn point(&mut self, point: DVec3) {
+        for real in point.to_array() {
             self.real(real);
         }
     }
@@ -234,7 +254,7 @@ struct Reader<'a>(&'a [u8]);
 
 impl Reader<'_> {
     fn tile(&mut self, counts: &Counts) -> Tile {
-        let [nodes, features, columns, rings, corners] = counts.0;
+        let [nodes, features, columns, rings, corners, ridges, peaks] = counts.0;
         let nodes = (0..nodes).map(|_| self.node()).collect();
         Tile {
             tree: Tree { nodes },
@@ -242,6 +262,10 @@ impl Reader<'_> {
             columns: (0..columns).map(|_| self.column()).collect(),
             rings: (0..rings).map(|_| self.range()).collect(),
             corners: (0..corners).map(|_| self.corner()).collect(),
+            ridges: (0..ridges)
+                .map(|_| [self.number(), self.number()])
+                .collect(),
+            peaks: (0..peaks).map(|_| self.point()).collect(),
             buried: self.0.iter().map(|&byte| byte != 0).collect(),
         }
     }
@@ -260,6 +284,8 @@ impl Reader<'_> {
             envelope: self.bounds(),
             outline: self.range(),
             columns: self.range(),
+            ridges: self.range(),
+            crests: self.range(),
         }
     }
 
@@ -275,11 +301,14 @@ impl Reader<'_> {
     }
 
     fn bounds(&mut self) -> Box3d {
-        let mut point = || DVec3::new(self.real(), self.real(), self.real());
         Box3d {
-            min: point(),
-            max: point(),
+            min: self.point(),
+            max: self.point(),
         }
+    }
+
+    fn point(&mut self) -> DVec3 {
+        DVec3::new(self.real(), self.real(), self.real())
     }
 
     fn range(&mut self) -> Range<u32> {

@@ -9,10 +9,10 @@ use super::horizon::{Horizon, SUMMIT};
 use super::occluder::{Measure, Wall};
 use super::projection::{SIDES, Side, Span};
 use super::solver::{PointQuery, PointSolver, TileSource, Walker, depth, plan_corners};
-use super::target::outline_slopes;
+use super::target::{edge_slopes, outline_slopes};
 use super::tile::Tile;
 use super::{EYE_MARGIN, PLACE_MARGIN};
-use crate::{Box3d, OuterPrism};
+use crate::{Box3d, OuterPrism, Roof};
 
 /// A feature of which one asks what hides it.
 #[derive(Clone, Copy, Debug)]
@@ -21,8 +21,19 @@ pub struct PointTarget<'a> {
     pub id: i64,
     /// Outer envelope, metres.
     pub envelope: Box3d,
-    /// Corners of the outer prism, of which the convex hull is taken; none if the box is meant.
-    pub outline: &'a [DVec2],
+    /// What is to be hidden of it.
+    pub shape: TargetShape<'a>,
+}
+
+/// What holds all that can be seen of a feature.
+#[derive(Clone, Copy, Debug)]
+pub enum TargetShape<'a> {
+    /// Its outer envelope.
+    Envelope,
+    /// Its outer prism, by corners of which the convex hull is taken.
+    Prism(&'a [DVec2]),
+    /// Its mesh, by where it is seen highest.
+    Roof(&'a Roof),
 }
 
 /// A feature that takes part in hiding a target.
@@ -44,8 +55,7 @@ impl PointSolver {
     ///
     /// The set is found hidden by the same horizon as [`Self::solve`] uses, raised anew by the walls of
     /// these features alone. None of them can be left out. Those that hide a wide part of the target by
-    /// themselves are preferred, and of equal ones the nearest. A target whose prism is given is hidden
-    /// when its prism is, else when its box is.
+    /// themselves are preferred, and of equal ones the nearest.
     ///
     /// # Errors
     /// Those of the source.
@@ -85,20 +95,25 @@ impl PointSolver {
 
 /// The lines of a target's highest slopes; none where they are not known.
 fn lines(eye: DVec3, target: &PointTarget<'_>) -> Option<Vec<Span>> {
-    let prism = OuterPrism::around(target.outline.iter().map(|corner| corner.extend(0.0)));
-    let corners = match prism {
-        Some(prism) => {
-            let relative = prism.hull.iter().map(|corner| corner - eye.truncate());
-            relative.collect()
-        }
-        None => plan_corners(eye, &target.envelope).to_vec(),
-    };
     let mut lines = Vec::new();
-    let flow = outline_slopes(&corners, target.envelope.max.z - eye.z, |line| {
+    let mut add = |line: &Span| {
         lines.push(*line);
         ControlFlow::Continue(())
-    });
-    flow.is_continue().then_some(lines)
+    };
+    let top = target.envelope.max.z - eye.z;
+    let flow = match target.shape {
+        TargetShape::Envelope => outline_slopes(&plan_corners(eye, &target.envelope), top, add),
+        TargetShape::Prism(outline) => {
+            let prism = OuterPrism::around(outline.iter().map(|corner| corner.extend(0.0)))?;
+            let corners = prism.hull.iter().map(|corner| corner - eye.truncate());
+            outline_slopes(&corners.collect::<Vec<_>>(), top, add)
+        }
+        TargetShape::Roof(roof) => roof.edges.iter().try_for_each(|edge| {
+            let [from, to] = edge.map(|end| roof.corners[end as usize] - eye);
+            edge_slopes(from, to, &mut add)
+        }),
+    };
+    (flow.is_continue() && !lines.is_empty()).then_some(lines)
 }
 
 /// Raises a horizon to the lines of a target, and beside them above all: what is below it cannot take

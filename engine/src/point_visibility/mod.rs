@@ -20,7 +20,7 @@ mod tree;
 
 pub use bytes::MalformedTile;
 pub use extent::{AzimuthRange, Extents};
-pub use hidden_by::{Hider, PointTarget};
+pub use hidden_by::{Hider, PointTarget, TargetShape};
 pub use neighbourhoods::neighbourhoods;
 pub use solver::{PointQuery, PointSolver, Sighting, TileSource, visible_from_point};
 pub use tile::{Tile, TileFeature};
@@ -37,6 +37,10 @@ const SLOPE_MARGIN: f64 = 1e-8;
 /// Sine of the angle between a wall and the sight line below which it is seen edge on: it hides
 /// next to nothing then, and its slope could not be told from the roundings.
 const EDGE_ON: f64 = 1e-6;
+
+/// Slack on the line of an edge that is not level, in roundings of the two terms that it is the
+/// difference of.
+const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 
 /// A few roundings of a place: targets are taken to be wider than computed by as much, and what hides
 /// to be narrower.

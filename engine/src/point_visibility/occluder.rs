@@ -1,10 +1,10 @@
-//! What the columns of a feature add to the horizon.
+//! What the columns of a feature, or its roof, add to the horizon.
 
 use glam::{DVec2, DVec3};
 
 use super::projection::{Edge, Facing, Span};
 use super::tile::{Column, Feature, Tile, positions};
-use super::{EYE_MARGIN, PLACE_MARGIN, SLOPE_MARGIN};
+use super::{EYE_MARGIN, PLACE_MARGIN, ROUNDINGS, SLOPE_MARGIN};
 
 /// Walls that lead away from the eye are cut where their depth has grown by this factor: each part
 /// hides only what is beyond all of it.
@@ -34,6 +34,10 @@ pub enum Measure {
 #[derive(Clone, Debug, Default)]
 pub struct WallFinder {
     edges: Vec<(Edge, Facing)>,
+    /// Ends of the edges of a roof: positions of their corners, clockwise one first, and their heights.
+    ends: Vec<[(u32, f64); 2]>,
+    /// Corners of a roof from which an edge goes on clockwise, and anticlockwise.
+    sides: [Vec<u32>; 2],
 }
 
 impl WallFinder {
@@ -48,6 +52,9 @@ impl WallFinder {
     ) {
         let nearest = eye.clamp(feature.envelope.min, feature.envelope.max);
         let is_near = (nearest - eye).truncate().abs().max_element() <= EYE_MARGIN;
+        if !is_near && measure == Measure::Slope {
+            self.crests(tile, feature, eye, found);
+        }
         for column in &tile.columns[positions(&feature.columns)] {
             if is_near && holds(tile, column, eye) {
                 continue;
@@ -62,6 +69,53 @@ impl WallFinder {
                 let buried = &tile.buried[corners.clone()];
                 self.ring(&tile.corners[corners], buried, height, eye, found);
             }
+        }
+    }
+
+    /// What is upright below the crests of a roof. The eye is beside it.
+    fn crests(&mut self, tile: &Tile, feature: &Feature, eye: DVec3, found: &mut impl FnMut(Wall)) {
+        self.edges.clear();
+        self.ends.clear();
+        self.sides.iter_mut().for_each(Vec::clear);
+        for ridge in &tile.ridges[positions(&feature.crests)] {
+            let [from, to] = ridge.map(|end| tile.peaks[end as usize] - eye);
+            let edge = Edge::new(from.truncate(), to.truncate());
+            let lowered = |z: f64| z - z.abs() * SLOPE_MARGIN;
+            let ends = [(ridge[0], lowered(from.z)), (ridge[1], lowered(to.z))];
+            let ends = match edge.facing() {
+                Facing::Left => ends,
+                Facing::Right => [ends[1], ends[0]],
+                Facing::EdgeOn => continue,
+            };
+            self.edges.push((edge, edge.facing()));
+            self.ends.push(ends);
+            self.sides[1].push(ends[0].0);
+            self.sides[0].push(ends[1].0);
+        }
+        self.sides.iter_mut().for_each(|side| side.sort_unstable());
+        for ((edge, facing), &[first, last]) in self.edges.iter().zip(&self.ends) {
+            let corner = |side: &Vec<u32>, end: u32| match side.binary_search(&end) {
+                Ok(_) => Corner::Drawn,
+                Err(_) => Corner::End,
+            };
+            let corners = [
+                corner(&self.sides[0], first.0),
+                corner(&self.sides[1], last.0),
+            ];
+            let [from, to] = match facing {
+                Facing::Left => [first.1, last.1],
+                _ => [last.1, first.1],
+            };
+            let [heights, slack] = edge.heights(from, to);
+            let slack = ROUNDINGS * slack.max_element();
+            walls(edge, corners, found, |part| {
+                let (at_zero, rise) = part.side.frame(heights);
+                Span {
+                    at_zero: at_zero - slack,
+                    rise,
+                    ..*part
+                }
+            });
         }
     }
 
@@ -104,36 +158,47 @@ impl WallFinder {
                 Facing::Left => (before, after),
                 _ => (after, before),
             };
-            let mut spans = edge.spans().peekable();
-            let mut begins_late = false;
-            while let Some((span, starts, stops)) = spans.next() {
-                // An end within the margin of a corner of the square is one beyond it too.
-                let starts = starts || begins_late;
-                begins_late = starts && 1.0 - span.from < PLACE_MARGIN;
-                let stops = stops
-                    || spans
-                        .peek()
-                        .is_some_and(|(next, _, stops)| *stops && next.to + 1.0 < PLACE_MARGIN);
-                parts(&span, |part, depth, is_first, is_last| {
-                    let begin = if is_first && starts {
-                        first
-                    } else {
-                        Corner::Drawn
-                    };
-                    let end = if is_last && stops {
-                        last
-                    } else {
-                        Corner::Drawn
-                    };
-                    let slopes = Span {
-                        from: (part.from - begin.reach()).max(-1.0),
-                        to: (part.to + end.reach()).min(1.0),
-                        ..part.scaled(height)
-                    };
-                    found(Wall { depth, slopes });
-                });
-            }
+            walls(edge, [first, last], found, |part| part.scaled(height));
         }
+    }
+}
+
+/// The walls over one edge, between two corners anticlockwise; `slopes` makes those of a part out of its
+/// inverse depths.
+fn walls(
+    edge: &Edge,
+    [first, last]: [Corner; 2],
+    found: &mut impl FnMut(Wall),
+    slopes: impl Fn(&Span) -> Span,
+) {
+    let mut spans = edge.spans().peekable();
+    let mut begins_late = false;
+    while let Some((span, starts, stops)) = spans.next() {
+        // An end within the margin of a corner of the square is one beyond it too.
+        let starts = starts || begins_late;
+        begins_late = starts && 1.0 - span.from < PLACE_MARGIN;
+        let stops = stops
+            || spans
+                .peek()
+                .is_some_and(|(next, _, stops)| *stops && next.to + 1.0 < PLACE_MARGIN);
+        parts(&span, |part, depth, is_first, is_last| {
+            let begin = if is_first && starts {
+                first
+            } else {
+                Corner::Drawn
+            };
+            let end = if is_last && stops {
+                last
+            } else {
+                Corner::Drawn
+            };
+            let slopes = Span {
+                from: (part.from - begin.reach()).max(-1.0),
+                to: (part.to + end.reach()).min(1.0),
+                ..slopes(part)
+            };
+            found(Wall { depth, slopes });
+        });
     }
 }
 

@@ -193,6 +193,15 @@ impl Edge {
         })
     }
 
+    /// The vector whose product with a point of the edge is the height there, given those of its
+    /// ends; and what its components are made of, without signs, for the roundings. For an edge that
+    /// is not seen edge on.
+    pub fn heights(&self, from: f64, to: f64) -> [DVec2; 2] {
+        let level = DVec2::new(self.along.y, -self.along.x) * (from / self.area);
+        let steep = DVec2::new(-self.from.y, self.from.x) * ((to - from) / self.area);
+        [level + steep, level.abs() + steep.abs()]
+    }
+
     /// How wide it is seen, in places, or less.
     pub fn width(&self) -> f64 {
         self.area.abs() / (chebyshev(self.from) * chebyshev(self.to))

@@ -11,7 +11,7 @@ use super::EYE_MARGIN;
 use super::horizon::Horizon;
 use super::occluder::{Measure, Wall, WallFinder};
 use super::projection::{Span, chebyshev};
-use super::target::outline_slopes;
+use super::target::{edge_slopes, outline_slopes};
 use super::tile::{Tile, TileFeature, positions};
 use crate::{Box3d, PlanWedge, in_range};
 
@@ -46,8 +46,8 @@ pub struct PointQuery {
     pub eye: DVec3,
     /// How far the eye sees, metres (Euclidean); may be infinite.
     pub range: f64,
-    /// Whether features whose outer prism is hidden are left out, or only those whose outer envelope
-    /// is.
+    /// Whether features whose outer prism or roof is hidden are left out, or only those whose outer
+    /// envelope is.
     pub prisms: bool,
     /// In which directions the eye looks, if not in all. What can be seen only in others is not
     /// reported.
@@ -194,7 +194,7 @@ impl PointSolver {
         }
     }
 
-    /// A feature whose envelope is not hidden, unless its prism is.
+    /// A feature whose envelope is not hidden, unless its prism or its roof is.
     pub(super) fn meet(
         &mut self,
         query: &PointQuery,
@@ -204,13 +204,22 @@ impl PointSolver {
     ) -> Option<Sighting> {
         let feature = &tile.features[position];
         let outline = &tile.corners[positions(&feature.outline)];
-        if query.prisms && !outline.is_empty() {
-            let eye = query.eye.truncate();
-            self.outline.clear();
-            self.outline
-                .extend(outline.iter().map(|&corner| corner - eye));
-            let is_beside = depth(query.eye, &feature.envelope) > EYE_MARGIN;
-            if is_beside && self.hides(&self.outline, feature.envelope.max.z - query.eye.z) {
+        let is_beside = depth(query.eye, &feature.envelope) > EYE_MARGIN;
+        if query.prisms && is_beside {
+            let ridges = &tile.ridges[positions(&feature.ridges)];
+            let is_hidden = match (ridges, outline) {
+                ([], []) => false,
+                ([], _) => {
+                    let eye = query.eye.truncate();
+                    self.outline.clear();
+                    self.outline
+                        .extend(outline.iter().map(|&corner| corner - eye));
+                    self.hides(&self.outline, feature.envelope.max.z - query.eye.z)
+                }
+                // Its roof is below its prism.
+                _ => self.hides_roof(query.eye, tile, ridges),
+            };
+            if is_hidden {
                 return None;
             }
         }
@@ -254,11 +263,23 @@ impl PointSolver {
     /// Whether a prism is below the horizon: its corners in plan, relative to the eye, which is beside
     /// it, and its top above the eye.
     pub(super) fn hides(&self, corners: &[DVec2], top: f64) -> bool {
-        outline_slopes(corners, top, |line| match self.horizon.hides(line) {
-            true => ControlFlow::Continue(()),
-            false => ControlFlow::Break(()),
+        outline_slopes(corners, top, |line| self.below(line)).is_continue()
+    }
+
+    /// Whether all edges of a roof are below the horizon. The eye is beside what it is the roof of.
+    fn hides_roof(&self, eye: DVec3, tile: &Tile, ridges: &[[u32; 2]]) -> bool {
+        ridges.iter().all(|ridge| {
+            let [from, to] = ridge.map(|end| tile.peaks[end as usize] - eye);
+            edge_slopes(from, to, |line| self.below(line)).is_continue()
         })
-        .is_continue()
+    }
+
+    fn below(&self, line: &Span) -> ControlFlow<()> {
+        if self.horizon.hides(line) {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
     }
 }
 

@@ -1,11 +1,11 @@
-//! Whether a prism is hidden: its highest slope, against the horizon.
+//! Whether a prism or a roof is hidden: its highest slope, against the horizon.
 
 use std::ops::ControlFlow;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
-use super::SLOPE_MARGIN;
 use super::projection::{Edge, Facing, Side, Span};
+use super::{ROUNDINGS, SLOPE_MARGIN};
 
 /// What is seen of a prism from outside its plan: its corners anticlockwise and relative to the eye,
 /// and how far its top is above the eye.
@@ -49,6 +49,42 @@ pub fn outline_slopes(
         }
     }
     ControlFlow::Continue(())
+}
+
+/// The lines of the slopes of a straight edge, relative to the eye, side by side, until `visit`
+/// breaks; bounds from above. Breaks at once where no bound is known.
+///
+/// Over an edge both `1 / w` and `z / w` are linear in the place: the edge is where `normal · p = 1`
+/// in plan, and its height there is `heights · p`.
+pub fn edge_slopes(
+    from: DVec3,
+    to: DVec3,
+    mut visit: impl FnMut(&Span) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    let edge = Edge::new(from.truncate(), to.truncate());
+    let lifted = |z: f64| z + z.abs() * SLOPE_MARGIN;
+    let (low, high) = (lifted(from.z), lifted(to.z));
+    if edge.facing() == Facing::EdgeOn {
+        let top = low.max(high);
+        return visit(&level(&edge, top, top >= 0.0)?);
+    }
+    let [heights, slack] = edge.heights(low, high);
+    let slack = ROUNDINGS * slack.max_element();
+    let mut is_bounded = false;
+    for (span, ..) in edge.spans() {
+        let (at_zero, rise) = span.side.frame(heights);
+        visit(&Span {
+            at_zero: at_zero + slack,
+            rise,
+            ..span
+        })?;
+        is_bounded = true;
+    }
+    if is_bounded {
+        ControlFlow::Continue(())
+    } else {
+        ControlFlow::Break(())
+    }
 }
 
 /// A level line that bounds the slopes of an edge that is seen edge on.

@@ -3,11 +3,18 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use geo::LineString;
-use glam::DVec2;
+use geo::{Distance, Euclidean, LineString};
+use glam::{DVec2, DVec3};
 
 use super::tree::Tree;
-use crate::{Box3d, OuterPrism, SolidColumn};
+use crate::{Box3d, OuterPrism, Roof, SolidColumn};
+
+/// An edge of a roof takes part in hiding where it is so much higher than the columns beside it, metres.
+/// Each that does makes the horizon more intricate.
+const CREST: f64 = 0.5;
+
+/// Columns this near to an edge are beside it, metres: more than they are drawn in from a surface.
+const BESIDE: f64 = 0.05;
 
 /// A feature as it is given to a tile.
 #[derive(Clone, Debug)]
@@ -18,6 +25,9 @@ pub struct TileFeature {
     pub envelope: Box3d,
     /// Corners of the outer prism; none where only the envelope is known. Their convex hull is taken.
     pub outline: Vec<DVec2>,
+    /// Where it is seen highest; `None` if nothing more than the prism is known. It hides, too, if all
+    /// columns do.
+    pub roof: Option<Roof>,
     /// What hides. Only grounded columns within the envelope do, from a point.
     pub columns: Vec<SolidColumn>,
 }
@@ -34,6 +44,9 @@ pub struct Tile {
     pub(super) corners: Vec<DVec2>,
     /// Of each corner, whether the edge that it begins lies in the feature's own solid.
     pub(super) buried: Vec<bool>,
+    /// Edges of roofs: two positions in `peaks` each.
+    pub(super) ridges: Vec<[u32; 2]>,
+    pub(super) peaks: Vec<DVec3>,
 }
 
 /// A feature of a tile.
@@ -43,6 +56,10 @@ pub struct Feature {
     pub envelope: Box3d,
     pub outline: Range<u32>,
     pub columns: Range<u32>,
+    /// Edges of its roof; none where nothing more than the prism is known.
+    pub ridges: Range<u32>,
+    /// The first of these: those below which a solid is, well above the columns beside them.
+    pub crests: Range<u32>,
 }
 
 /// A grounded column.
@@ -104,17 +121,39 @@ impl Tile {
             .iter()
             .filter(|column| column.grounded && lies_within(column, &feature.envelope))
             .collect();
+        // A roof hides as the columns do that it was made with: not where they are gone, nor where a
+        // part of them has air below it.
+        let has_all = !hiding.is_empty() && hiding.len() == feature.columns.len();
+        let may_hide = feature.roof.as_ref().filter(|roof| has_all && roof.hides);
         let walls = Walls::of(&hiding);
         let first = index(self.columns.len());
-        for column in hiding {
+        for column in &hiding {
             self.add_column(column, &walls);
         }
+        let crests = may_hide.map_or(Vec::new(), |roof| crests(roof, &hiding));
+        let [crests, ridges] = self.add_roof(feature.roof.as_ref(), &crests);
         self.features.push(Feature {
             id: feature.id,
             envelope: feature.envelope,
             outline,
             columns: first..index(self.columns.len()),
+            ridges,
+            crests,
         });
+    }
+
+    /// Adds the edges of a roof, the crests among them first, and returns where both are.
+    fn add_roof(&mut self, roof: Option<&Roof>, crests: &[[u32; 2]]) -> [Range<u32>; 2] {
+        let (first, base) = (index(self.ridges.len()), index(self.peaks.len()));
+        if let Some(roof) = roof {
+            self.peaks.extend(&roof.corners);
+            let others = roof.edges.iter().filter(|edge| !crests.contains(edge));
+            let ridges = crests.iter().chain(others);
+            let placed = ridges.map(|edge| edge.map(|end| base + end));
+            self.ridges.extend(placed);
+        }
+        let crests = first..first + index(crests.len());
+        [crests, first..index(self.ridges.len())]
     }
 
     fn add_column(&mut self, column: &SolidColumn, walls: &Walls) {
@@ -142,6 +181,21 @@ impl Tile {
         }
         first..index(self.corners.len())
     }
+}
+
+/// The edges of a roof that are all well above the columns beside their middle.
+fn crests(roof: &Roof, columns: &[&SolidColumn]) -> Vec<[u32; 2]> {
+    let is_crest = |edge: &&[u32; 2]| {
+        let [from, to] = edge.map(|end| roof.corners[end as usize]);
+        let middle = from.midpoint(to);
+        let place = geo::Point::new(middle.x, middle.y);
+        let beside = columns
+            .iter()
+            .filter(|column| Euclidean.distance(&place, &column.footprint) < BESIDE);
+        let top = beside.map(|column| column.top).reduce(f64::max);
+        top.is_some_and(|top| from.z.min(to.z) - top > CREST)
+    };
+    roof.edges.iter().filter(is_crest).copied().collect()
 }
 
 /// Greatest height of the columns of one feature behind each edge, by the places of its ends.

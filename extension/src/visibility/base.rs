@@ -1,10 +1,11 @@
 //! [`BaseFeature`], a feature as the tables of a scene have it.
 
 use super::statements::{Ask, Statements};
+use super::stored_mesh::mesh_of;
 use crate::scene::polygon;
 use crate::snapshot_read::{Moment, Row};
 use crate::types::{Box3d, ring, rings};
-use engine::{SolidColumn, TileFeature};
+use engine::{Roof, SolidColumn, TileFeature, TriangleMesh};
 use geo::orient::Direction;
 use geo::{Coord, CoordsIter, LineString, Orient, Polygon};
 use glam::DVec2;
@@ -19,10 +20,12 @@ pub struct BaseFeature {
 }
 
 impl BaseFeature {
-    /// Corners of what hides in it.
+    /// Corners of what hides in it, and of its roof.
     pub fn corners(&self) -> usize {
         let footprints = self.feature.columns.iter().map(|column| &column.footprint);
-        footprints.map(CoordsIter::coords_count).sum()
+        let roof = self.feature.roof.as_ref();
+        footprints.map(CoordsIter::coords_count).sum::<usize>()
+            + roof.map_or(0, |roof| roof.corners.len())
     }
 }
 
@@ -54,6 +57,7 @@ fn read(
         features.extend(feature_of(row));
     });
     add_columns(statements, moment, &mut features);
+    add_roofs(statements, moment, &mut features);
     features
 }
 
@@ -71,6 +75,7 @@ fn feature_of(row: &Row) -> Option<BaseFeature> {
             id: row.get(1)?,
             envelope: row.get::<Box3d>(3)?.0,
             outline,
+            roof: None,
             columns: Vec::new(),
         },
         class: row.get(2)?,
@@ -109,6 +114,33 @@ fn add_columns(statements: &Statements, moment: Moment, features: &mut [BaseFeat
                 features[of].feature.columns.push(upright(&bounds.0));
             }
         });
+}
+
+/// Adds where features are seen highest, by their meshes.
+fn add_roofs(statements: &Statements, moment: Moment, features: &mut [BaseFeature]) {
+    if features.is_empty() || !statements.may_read_meshes() {
+        return;
+    }
+    let ids: Vec<i64> = features.iter().map(|base| base.feature.id).collect();
+    let ids: Vec<Datum> = ids.into_datum().into_iter().collect();
+    let mut meshes: HashMap<i64, Vec<(TriangleMesh, bool)>> = HashMap::new();
+    statements.get(Ask::Meshes).read(moment, &ids, |row| {
+        if let (Some(id), Some(mesh)) = (row.get(1), mesh_of(row)) {
+            let is_solid = row.get(4).unwrap_or(false);
+            let with_kind = mesh.map(|mesh| (mesh, is_solid));
+            meshes.entry(id).or_default().extend(with_kind);
+        }
+    });
+    for BaseFeature { feature, .. } in features {
+        // Two meshes of one feature would be a damage.
+        if let Some([(mesh, is_solid)]) = meshes.get(&feature.id).map(Vec::as_slice) {
+            let roof = Roof::of(mesh, &feature.envelope);
+            feature.roof = roof.map(|roof| Roof {
+                hides: roof.hides && *is_solid,
+                ..roof
+            });
+        }
+    }
 }
 
 /// A row of feature, footprint, bottom, top.

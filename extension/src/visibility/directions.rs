@@ -8,7 +8,7 @@ use super::{base, live};
 use crate::error::{Refusal, or_raise};
 use crate::snapshot_read::Moment;
 use crate::types::{Box3d, Path, Point3d, Ring};
-use engine::{Extents, PointSolver, PointTarget};
+use engine::{Extents, PointSolver, PointTarget, TargetShape, TileFeature};
 use glam::DVec3;
 use pgrx::iter::TableIterator;
 use pgrx::{PgSqlErrorCode, name, pg_extern};
@@ -80,19 +80,20 @@ fn hidden_by(
     let statements = Statements::of(scene, &Tables::of(scene));
     let target = base::of(&statements, Moment::Query, &[feature_id]).pop();
     let target = target.unwrap_or_else(|| unknown(scene, feature_id)).feature;
-    let asked = PointTarget {
-        id: target.id,
-        envelope: target.envelope,
-        outline: &target.outline,
-    };
     let mut tiles = Tiles::around(scene, &between(observer.0, &target.envelope));
     let found = or_raise(live::with_solver(|solver: &mut PointSolver| {
-        let found = solver.hidden_by(observer.0, &asked, &mut tiles)?;
-        if found.is_some() || target.outline.is_empty() {
-            return Ok(found);
+        for shape in shapes(&target) {
+            let asked = PointTarget {
+                id: target.id,
+                envelope: target.envelope,
+                shape,
+            };
+            let found = solver.hidden_by(observer.0, &asked, &mut tiles)?;
+            if found.is_some() {
+                return Ok(found);
+            }
         }
-        let outline = &[];
-        solver.hidden_by(observer.0, &PointTarget { outline, ..asked }, &mut tiles)
+        Ok(None)
     }));
     let row = |id, class, envelope, distance| (id, class, Box3d(envelope), distance);
     let together = found.unwrap_or_default().into_iter().filter_map(|hider| {
@@ -131,6 +132,14 @@ fn isovist(scene: &str, observer: Point3d, range: f64) -> Ring {
         corners.push(observer.0.truncate());
     }
     Ring(corners)
+}
+
+/// What holds all of a feature, the tightest first: it is hidden when one of them is.
+fn shapes(target: &TileFeature) -> impl Iterator<Item = TargetShape<'_>> {
+    let roof = target.roof.as_ref().map(TargetShape::Roof);
+    let prism = TargetShape::Prism(&target.outline);
+    let prism = (!target.outline.is_empty()).then_some(prism);
+    roof.into_iter().chain(prism).chain([TargetShape::Envelope])
 }
 
 /// A box that holds all that may hide a target from an eye: what is nearer in plan.

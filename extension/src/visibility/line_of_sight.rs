@@ -2,6 +2,7 @@
 
 use super::base::{column_of, upright};
 use super::statements::{Ask, Statements};
+use super::stored_mesh::mesh_of;
 use super::tables::Tables;
 use crate::snapshot_read::{Moment, Row};
 use crate::types::{Box3d, Point3d};
@@ -157,7 +158,7 @@ impl<'a> Search<'a> {
             asked.read(Moment::Query, &array(features), |row| {
                 if let Some(feature) = row.get(1) {
                     let triangles = solids.entry(feature).or_default();
-                    let mesh = solid(row).and_then(|solid| mesh_of(&solid));
+                    let mesh = solid(row).and_then(|solid| surface_of(&solid));
                     triangles.extend(mesh.iter().flat_map(TriangleMesh::corners));
                 }
             });
@@ -174,11 +175,8 @@ impl<'a> Search<'a> {
 /// Where a line is stopped by the mesh of a row of vertices, triangles, and whether they enclose a
 /// solid; `None` where there is no mesh. What a damaged one bounds is not known, so it stops nothing.
 fn at_mesh(line: &SightLine, row: &Row) -> Option<Option<Share>> {
-    let vertices: Vec<Option<f64>> = row.get(2)?;
-    let triangles: Vec<Option<i32>> = row.get(3)?;
     let is_solid = row.get(4).unwrap_or(false);
-    let mesh = mesh(&vertices, &triangles);
-    Some(mesh.and_then(|mesh| {
+    Some(mesh_of(row)?.and_then(|mesh| {
         if is_solid {
             line.enters(&mesh)
         } else {
@@ -187,26 +185,8 @@ fn at_mesh(line: &SightLine, row: &Row) -> Option<Option<Share>> {
     }))
 }
 
-fn mesh(vertices: &[Option<f64>], triangles: &[Option<i32>]) -> Option<TriangleMesh> {
-    let (vertices, no_number) = vertices.as_chunks::<3>();
-    let (triangles, no_corner) = triangles.as_chunks::<3>();
-    let corner = |number: &Option<i32>| u32::try_from((*number)?).ok();
-    let is_whole = no_number.is_empty() && no_corner.is_empty();
-    is_whole.then_some(TriangleMesh {
-        vertices: vertices
-            .iter()
-            .map(|&[x, y, z]| Some(DVec3::new(x?, y?, z?)))
-            .collect::<Option<_>>()?,
-        triangles: triangles
-            .iter()
-            .map(|[a, b, c]| Some([corner(a)?, corner(b)?, corner(c)?]))
-            .collect::<Option<_>>()?,
-        untriangulable_faces: 0,
-    })
-}
-
 /// The surface of a column; `None` where its footprint is no polygon, or it is flat.
-fn mesh_of(column: &SolidColumn) -> Option<TriangleMesh> {
+fn surface_of(column: &SolidColumn) -> Option<TriangleMesh> {
     let solid = extruded(&column.footprint, column.bottom, column.top).ok()?;
     Some(solid.mesh)
 }

@@ -9,6 +9,7 @@ mod live;
 mod pack;
 mod packed_tile;
 mod statements;
+mod stored_mesh;
 mod tables;
 mod tiles;
 

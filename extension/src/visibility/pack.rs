@@ -106,7 +106,7 @@ impl Packing {
                 format!("permission denied to pack tiles of scene \"{name}\""),
             )
             .detail(
-                "It takes SELECT on all rows of feature, solid_column and inner_envelope, INSERT \
+                "It takes SELECT on all rows of feature, solid_column, inner_envelope and mesh, INSERT \
                  and DELETE on tile, DELETE on edit, and UPDATE on scene_info.",
             ));
         }

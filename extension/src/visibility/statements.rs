@@ -1,6 +1,6 @@
 //! [`Statements`], what visibility queries read of one scene, each planned once a backend.
 
-use super::tables::Tables;
+use super::tables::{Tables, may, relation};
 use crate::scene::{failed, quoted};
 use crate::snapshot_read::Statement;
 use crate::types::Box3d;
@@ -20,6 +20,7 @@ thread_local! {
 /// Statements on one scene.
 pub struct Statements {
     name: String,
+    namespace: Oid,
     cells: [OnceCell<Statement>; Ask::COUNT],
 }
 
@@ -136,6 +137,7 @@ impl Statements {
             let new = || {
                 Rc::new(Self {
                     name: scene.to_owned(),
+                    namespace: tables.namespace(),
                     cells: [const { OnceCell::new() }; Ask::COUNT],
                 })
             };
@@ -147,6 +149,11 @@ impl Statements {
     pub fn get(&self, ask: Ask) -> &Statement {
         self.cells[ask as usize]
             .get_or_init(|| Statement::new(&ask.text(&self.name), &ask.parameters()))
+    }
+
+    /// Whether the current user may read meshes. Those who may not are answered by what else is known.
+    pub fn may_read_meshes(&self) -> bool {
+        may(relation(self.namespace, c"mesh"), pg_sys::ACL_SELECT)
     }
 
     /// Forgets them, unless a query that is under way has them in hand.

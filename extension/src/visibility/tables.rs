@@ -78,7 +78,7 @@ const DERIVED: [(&CStr, Columns); 2] = [
 ];
 
 /// What tiles are made of, so that triggers on them write the log of edits.
-const SOURCES: [&CStr; 3] = [c"feature", c"solid_column", c"inner_envelope"];
+const SOURCES: [&CStr; 4] = [c"feature", c"solid_column", c"inner_envelope", c"mesh"];
 
 /// The tables of a scene.
 #[derive(Clone, Copy, Debug)]
@@ -277,7 +277,8 @@ fn box3d_type() -> Option<Oid> {
     (oid != pg_sys::InvalidOid).then_some(oid)
 }
 
-fn may(table: Oid, right: u32) -> bool {
+/// Whether the current user has a right on a table.
+pub fn may(table: Oid, right: u32) -> bool {
     // SAFETY: asks the catalog about a table that was found there.
     unsafe {
         pg_sys::pg_class_aclcheck(table, pg_sys::GetUserId(), right as pg_sys::AclMode)

@@ -1,7 +1,7 @@
 //! What hides a target, in random scenes: nothing else is needed, none of it can be left out, and the
 //! target cannot be seen past it.
 
-use engine::{Hider, PointQuery, PointSolver, PointTarget, TileFeature};
+use engine::{Hider, PointQuery, PointSolver, PointTarget, TargetShape, TileFeature};
 use fastrand::Rng;
 use oracle::{JudgedFeature, LeftOut, PointJudge};
 
@@ -22,11 +22,14 @@ fn hiders(
     query: &PointQuery,
     target: &TileFeature,
 ) -> Option<Vec<Hider>> {
-    let outline: &[_] = if query.prisms { &target.outline } else { &[] };
+    let shape = match query.prisms {
+        true if !target.outline.is_empty() => TargetShape::Prism(&target.outline),
+        _ => TargetShape::Envelope,
+    };
     let target = PointTarget {
         id: target.id,
         envelope: target.envelope,
-        outline,
+        shape,
     };
     let Ok(hiders) = solver.hidden_by(query.eye, &target, tiling);
     hiders

@@ -11,6 +11,7 @@ mod isovists;
 mod kind;
 mod observer;
 mod plan;
+mod roofs;
 mod scene;
 mod tiling;
 mod trial;
@@ -24,8 +25,11 @@ use engine::PointSolver;
 use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
-use finding::Finding;
+use roofs::RoofTrial;
 use trial::{Counts, QUERIES, Trial};
+
+/// One scene in so many is of houses with roofs.
+const WITH_ROOFS: u64 = 5;
 
 /// Findings to print.
 const PRINTED: usize = 5;
@@ -79,7 +83,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(arguments: &Arguments) -> (Counts, Vec<Finding>) {
+fn run(arguments: &Arguments) -> (Counts, Vec<String>) {
     let scenes = match arguments.scene {
         Some(scene) => scene..scene + 1,
         None => 0..arguments.queries.div_ceil(QUERIES),
@@ -95,27 +99,41 @@ fn run(arguments: &Arguments) -> (Counts, Vec<Finding>) {
             if arguments.stop && !lock(&total).1.is_empty() {
                 return;
             }
-            let mut trial = Trial::new(arguments.seed, number);
-            let wanted = arguments
-                .queries
-                .saturating_sub(number * QUERIES)
-                .min(QUERIES);
-            trial.run(
-                solver,
-                if arguments.scene.is_some() {
-                    QUERIES
-                } else {
-                    wanted
-                },
-            );
+            let wanted = match arguments.scene {
+                Some(_) => QUERIES,
+                None => arguments
+                    .queries
+                    .saturating_sub(number * QUERIES)
+                    .min(QUERIES),
+            };
+            let (counts, findings) = run_scene(arguments.seed, number, solver, wanted);
             let mut total = lock(&total);
-            total.0 += trial.counts;
-            total.1.append(&mut trial.findings);
+            total.0 += counts;
+            total.1.extend(findings);
         },
     );
     total
         .into_inner()
         .unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+/// One scene; what was found as it is printed.
+fn run_scene(
+    seed: u64,
+    number: u64,
+    solver: &mut PointSolver,
+    queries: u64,
+) -> (Counts, Vec<String>) {
+    if number % WITH_ROOFS == WITH_ROOFS - 1 {
+        let mut trial = RoofTrial::new(seed, number);
+        trial.run(solver, queries);
+        let findings = trial.findings.iter().map(ToString::to_string);
+        return (trial.counts, findings.collect());
+    }
+    let mut trial = Trial::new(seed, number);
+    trial.run(solver, queries);
+    let findings = trial.findings.iter().map(ToString::to_string);
+    (trial.counts, findings.collect())
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {

@@ -80,6 +80,7 @@ impl Feature {
             id,
             envelope: engine::Box3d::new(self.min.into(), self.max.into()),
             outline: self.outline.iter().map(|&corner| corner.into()).collect(),
+            roof: None,
             columns: self.columns.iter().map(column).collect(),
         }
     }

@@ -12,10 +12,10 @@ use crate::scene::Scene;
 use crate::tiling::Tiling;
 
 /// Eyes in a scene.
-const EYES: usize = 6;
+pub const EYES: usize = 6;
 
 /// Fields of an eye: two ranges, by boxes and by prisms.
-const FIELDS: usize = 4;
+pub const FIELDS: usize = 4;
 
 /// Queries of a scene.
 pub const QUERIES: u64 = (EYES * FIELDS) as u64;
@@ -121,14 +121,9 @@ impl Trial {
                 if self.counts.queries == queries {
                     return;
                 }
-                let range = if field < 2 {
-                    f64::INFINITY
-                } else {
-                    [3.0, 5.0, 10.0, 20.0, 100.0][self.rng.usize(..5)]
-                };
                 let query = PointQuery {
                     eye: eye.into(),
-                    range,
+                    range: range(&mut self.rng, field),
                     prisms: field % 2 == 1,
                     wedge: None,
                 };
@@ -169,6 +164,14 @@ impl Trial {
                     .push(Finding::new(&self.scene, self.number, query, at, witness));
             }
         }
+    }
+}
+
+/// The range of a field.
+pub fn range(rng: &mut Rng, field: usize) -> f64 {
+    match field {
+        0 | 1 => f64::INFINITY,
+        _ => [3.0, 5.0, 10.0, 20.0, 100.0][rng.usize(..5)],
     }
 }
 

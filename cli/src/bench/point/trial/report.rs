@@ -16,14 +16,15 @@ impl Trial {
         for buffer in &mut self.buffers {
             table.rows.push(row(buffer, ours));
         }
-        table.remarks.push(self.preparation());
+        table.remarks.push(self.remark());
     }
 
-    /// What item buffers take before they can look.
-    fn preparation(&mut self) -> String {
+    /// What is there to be seen, and what item buffers take before they can look.
+    fn remark(&mut self) -> String {
         format!(
-            "Around an observer are {} triangles, read in {:.0} ms and built into a tree of Embree in {:.0} ms, in \
-             the median.",
+            "Truly visible are {:.1} features in the mean. Around an observer are {} triangles, read in {:.0} ms \
+             and built into a tree of Embree in {:.0} ms, in the median.",
+            self.buffers[0].score.visible(),
             terminal::grouped(quantile(&mut self.triangles, 0.5) as usize),
             quantile(&mut self.reading, 0.5),
             quantile(&mut self.building, 0.5),

@@ -22,6 +22,11 @@ impl Score {
         self.missed += visible.difference(answer).count();
     }
 
+    /// Features that an observer can see, in the mean.
+    pub fn visible(&self) -> f64 {
+        self.visible as f64 / self.observers as f64
+    }
+
     /// Q, (returned − visible) ÷ visible; `None` where nothing was seen.
     pub fn over_estimate(&self) -> Option<f64> {
         self.share(self.returned as f64 - self.visible as f64)
@@ -48,7 +53,7 @@ mod tests {
         score.add(&HashSet::from([1, 2, 3, 4]), &HashSet::from([1, 2]));
         score.add(&HashSet::from([1, 9]), &HashSet::from([1, 2]));
         assert_eq!((score.observers, score.returned), (2, 6));
-        assert_eq!(score.over_estimate(), Some(0.5));
+        assert_eq!((score.visible(), score.over_estimate()), (2.0, Some(0.5)));
         assert_eq!(score.missed(), Some(0.25));
     }
 }

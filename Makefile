@@ -30,7 +30,7 @@ test: ## run every test; ends with "N passed, N failed"
 bench-index: build ## the indexes of box3d against PostGIS and cube (ROWS=100000 is quick, FORMAT=markdown)
 	@scripts/bench index
 
-bench-point: build ## live answers against PostGIS and the way of 2004 (FEATURES="10000 100000" is quicker, FORMAT=markdown)
+bench-point: build ## live answers against PostGIS, Embree and the way of 2004 (FEATURES="10000 100000" is quicker, FORMAT=markdown, EMBREE=no)
 	@scripts/bench point
 
 install: ## copy what "make build" made into the server of PG_CONFIG

@@ -33,6 +33,8 @@ extension=()
 
 release=$CARGO_TARGET_DIR/release
 occlusion=$release/occlusion
+# The same with item buffers of Embree, which scripts/build-embree makes.
+occlusion_embree=$CARGO_TARGET_DIR/embree/occlusion
 
 fail() {
     printf '%s: %s\n' "${0##*/}" "$*" >&2

@@ -30,7 +30,7 @@ pub const FOUND_FAULTS: u8 = 1;
 /// What `--help` says about the exit status.
 pub const EXIT_STATUS: &str = "Exit status:
   0  done
-  1  verify found a false occlusion or another fault, or bench answers that differ
+  1  verify found a false occlusion or another fault, or bench answers that differ or miss something
   2  wrong usage, or a file or value that cannot be used
   3  the database cannot be reached, or it refused
   4  this machine cannot do it: no graphics adapter, a file cannot be written

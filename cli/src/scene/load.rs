@@ -10,6 +10,11 @@ use super::feature::{Feature, InnerEnvelope};
 use super::street::{Street, polygon};
 use crate::database::quoted;
 use crate::failure::Failure;
+use crate::sql_types::Box3d;
+
+/// Whether the envelope of a feature meets a box, if there is one.
+const IN_AREA: &str =
+    "($1::occlusion.box3d IS NULL OR f.envelope OPERATOR(occlusion.&&) $1::occlusion.box3d)";
 
 /// A scene without its volumes.
 #[derive(Clone, Debug)]
@@ -27,10 +32,20 @@ pub fn load(client: &mut impl GenericClient, scene: &str) -> Result<Scene, Failu
     client.execute("SELECT occlusion.require_scene($1)", &[&scene])?;
     let schema = quoted(scene);
     Ok(Scene {
-        features: features(client, &schema)?,
+        features: features(client, &schema, None)?,
         streets: streets(client, &schema)?,
         attribution: attribution(client, &schema)?,
     })
+}
+
+/// Reads the features whose envelopes meet a box.
+#[cfg(feature = "embree")]
+pub fn load_over(
+    client: &mut impl GenericClient,
+    scene: &str,
+    area: Box3d,
+) -> Result<Vec<Feature>, Failure> {
+    features(client, &quoted(scene), Some(area))
 }
 
 impl Scene {
@@ -44,16 +59,22 @@ impl Scene {
     }
 }
 
-fn features(client: &mut impl GenericClient, schema: &str) -> Result<Vec<Feature>, Failure> {
+/// All features, or those in an area.
+fn features(
+    client: &mut impl GenericClient,
+    schema: &str,
+    area: Option<Box3d>,
+) -> Result<Vec<Feature>, Failure> {
     let statement = format!(
         "SELECT f.id, f.name, f.class, f.envelope, m.vertices, m.triangles, i.box, i.grounded \
          FROM {schema}.feature AS f \
          LEFT JOIN {schema}.mesh AS m ON m.feature = f.id \
          LEFT JOIN {schema}.inner_envelope AS i ON i.feature = f.id \
-         ORDER BY f.id"
+         WHERE {IN_AREA} ORDER BY f.id"
     );
-    let mut features: Vec<Feature> = client.query(&statement, &[])?.iter().map(feature).collect();
-    add_columns(client, schema, &mut features)?;
+    let rows = client.query(&statement, &[&area])?;
+    let mut features: Vec<Feature> = rows.iter().map(feature).collect();
+    add_columns(client, schema, area, &mut features)?;
     Ok(features)
 }
 
@@ -61,12 +82,15 @@ fn features(client: &mut impl GenericClient, schema: &str) -> Result<Vec<Feature
 fn add_columns(
     client: &mut impl GenericClient,
     schema: &str,
+    area: Option<Box3d>,
     features: &mut [Feature],
 ) -> Result<(), Failure> {
     let statement = format!(
-        "SELECT feature, footprint, bottom, top, grounded FROM {schema}.solid_column ORDER BY feature"
+        "SELECT c.feature, c.footprint, c.bottom, c.top, c.grounded \
+         FROM {schema}.solid_column AS c JOIN {schema}.feature AS f ON f.id = c.feature \
+         WHERE {IN_AREA} ORDER BY c.feature"
     );
-    for row in client.query(&statement, &[])? {
+    for row in client.query(&statement, &[&area])? {
         let owner: i64 = row.get(0);
         let position = features.binary_search_by_key(&owner, |feature| feature.id);
         if let (Ok(position), Some(footprint)) = (position, polygon(row.get(1))) {

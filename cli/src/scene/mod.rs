@@ -7,6 +7,8 @@ mod surfaces;
 mod volume;
 
 pub use feature::Feature;
+#[cfg(feature = "embree")]
+pub use load::load_over;
 pub use load::{Scene, load};
 pub use street::{Street, rings};
 pub use surfaces::{Surfaces, number};

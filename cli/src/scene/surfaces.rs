@@ -3,6 +3,7 @@
 use oracle::Triangle;
 use renderer::SceneMesh;
 
+use super::feature::Feature;
 use super::load::Scene;
 
 /// The triangles of a scene: the surfaces of its features, each under a number of its own, and the
@@ -21,22 +22,21 @@ pub fn number(position: usize) -> u32 {
 impl Surfaces {
     /// All that can be seen in a scene.
     pub fn of(scene: &Scene) -> Self {
-        let lowest = lowest(scene);
-        let surfaces = scene
-            .features
-            .iter()
-            .enumerate()
-            .flat_map(|(position, feature)| {
-                let surface = feature.surface().unwrap_or_default();
-                surface
-                    .into_iter()
-                    .map(move |triangle| (number(position), triangle))
-            });
-        let ground = scene
-            .features
-            .iter()
-            .flat_map(|feature| feature.ground(lowest));
-        let ground = ground.map(|triangle| (number(scene.features.len()), triangle));
+        let eyes = scene.streets.iter().map(|street| street.eye_low);
+        Self::seen_from(&scene.features, eyes)
+    }
+
+    /// All that can be seen of some features by eyes at some heights.
+    pub fn seen_from(features: &[Feature], eyes: impl Iterator<Item = f64>) -> Self {
+        let lowest = lowest(features, eyes);
+        let surfaces = features.iter().enumerate().flat_map(|(position, feature)| {
+            let surface = feature.surface().unwrap_or_default();
+            surface
+                .into_iter()
+                .map(move |triangle| (number(position), triangle))
+        });
+        let ground = features.iter().flat_map(|feature| feature.ground(lowest));
+        let ground = ground.map(|triangle| (number(features.len()), triangle));
         Self {
             triangles: surfaces.chain(ground).collect(),
         }
@@ -59,8 +59,7 @@ impl Surfaces {
 }
 
 /// A height below everything that can be seen or looked from.
-fn lowest(scene: &Scene) -> f64 {
-    let feet = scene.features.iter().map(|feature| feature.envelope.min[2]);
-    let eyes = scene.streets.iter().map(|street| street.eye_low);
+fn lowest(features: &[Feature], eyes: impl Iterator<Item = f64>) -> f64 {
+    let feet = features.iter().map(|feature| feature.envelope.min[2]);
     feet.chain(eyes).fold(0.0, f64::min) - 1.0
 }

@@ -10,7 +10,7 @@ mod scene;
 
 pub use city::City;
 pub use database::TestDatabase;
-pub use program::{Run, occlusion, shell, start};
+pub use program::{Run, occlusion, occlusion_with_embree, shell, start};
 pub use scene::{TestScene, client, database_url};
 
 use std::path::{Path, PathBuf};

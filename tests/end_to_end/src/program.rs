@@ -42,7 +42,18 @@ impl Run {
 /// Runs a command of the program against the test database.
 #[track_caller]
 pub fn occlusion(arguments: &[&str]) -> Run {
-    finished(&mut command(arguments))
+    finished(&mut command(binary(), arguments))
+}
+
+/// The same with the program that has item buffers of Embree, `OCCLUSION_EMBREE_BIN`.
+///
+/// # Panics
+/// When that does not say where it is.
+#[track_caller]
+pub fn occlusion_with_embree(arguments: &[&str]) -> Run {
+    let path = env::var_os("OCCLUSION_EMBREE_BIN");
+    let path = path.expect("OCCLUSION_EMBREE_BIN is the program that scripts/build-embree makes");
+    finished(&mut command(path.into(), arguments))
 }
 
 #[track_caller]
@@ -71,7 +82,7 @@ pub fn shell(line: &str, folder: &Path) -> Run {
 /// Starts a command of the program against the test database.
 #[track_caller]
 pub fn start(arguments: &[&str]) -> Child {
-    let mut command = command(arguments);
+    let mut command = command(binary(), arguments);
     command
         .stdout(Stdio::null())
         .stderr(Stdio::null())
@@ -79,8 +90,8 @@ pub fn start(arguments: &[&str]) -> Child {
         .expect("the program starts")
 }
 
-fn command(arguments: &[&str]) -> Command {
-    let mut command = Command::new(binary());
+fn command(program: PathBuf, arguments: &[&str]) -> Command {
+    let mut command = Command::new(program);
     command.args(arguments);
     if !arguments.contains(&"--database") {
         command.args(["--database", &database_url()]);

@@ -9,10 +9,24 @@ use crate::failure::Failure;
 /// Drops all that the benchmark made.
 pub const CLOSE: &str = "DROP SCHEMA IF EXISTS occlusion_bench_point CASCADE";
 
+/// What a way says of its answers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Claim {
+    /// Everything that can be seen is in them.
+    Complete,
+    /// Something may be missing.
+    Incomplete,
+    /// They are about a part of what is around.
+    OfAPart,
+}
+
 /// A way to answer. Its question begins after `SELECT`, and `q` is an observer.
 pub struct Contender {
     /// What it is called.
     pub name: &'static str,
+    /// What a trial holds it to.
+    #[cfg_attr(not(feature = "embree"), expect(dead_code))]
+    pub claim: Claim,
     from: String,
 }
 
@@ -29,12 +43,14 @@ impl Contender {
         let mut all = vec![
             Self::new(
                 "visible_features",
+                Claim::Complete,
                 format!(
                     "v.feature_id, v.class FROM occlusion.visible_features('{literal}', q.eye, {range:?}) AS v"
                 ),
             ),
             Self::new(
                 "the same, in a cone of 60 degrees",
+                Claim::OfAPart,
                 format!(
                     "v.feature_id, v.class FROM occlusion.visible_features('{literal}', \
                          occlusion.view_cone(q.eye, q.id * 77 % 360, 60, {range:?})) AS v"
@@ -42,6 +58,7 @@ impl Contender {
             ),
             Self::new(
                 "box3d, in range only",
+                Claim::Complete,
                 format!("f.id, f.class FROM {schema}.feature AS f WHERE {in_range}"),
             ),
         ];
@@ -52,7 +69,11 @@ impl Contender {
                      WHERE o.box OPERATOR(occlusion.@>) q.eye) AS h ON h.occludee = f.id \
                  WHERE {in_range} AND h.occludee IS NULL"
             );
-            all.push(Self::new("2004: less what volumes hide", from));
+            all.push(Self::new(
+                "2004: less what volumes hide",
+                Claim::Complete,
+                from,
+            ));
         }
         if has_postgis {
             all.extend(Self::of_postgis(range));
@@ -87,18 +108,24 @@ impl Contender {
         [
             Self::new(
                 "PostGIS n-D, in range only",
+                Claim::Complete,
                 format!("b.id, b.class FROM {in_space}"),
             ),
             Self::new(
                 "PostGIS 2D and z, in range only",
+                Claim::Complete,
                 format!("b.id, b.class FROM {in_plan}"),
             ),
-            Self::new("PostGIS, a sight line to each middle", sight_lines),
+            Self::new(
+                "PostGIS, a sight line to each middle",
+                Claim::Incomplete,
+                sight_lines,
+            ),
         ]
     }
 
-    fn new(name: &'static str, from: String) -> Self {
-        Self { name, from }
+    fn new(name: &'static str, claim: Claim, from: String) -> Self {
+        Self { name, claim, from }
     }
 
     /// Asks for one observer.

@@ -3,6 +3,9 @@
 mod contender;
 mod observers;
 mod race;
+mod table;
+#[cfg(feature = "embree")]
+mod trial;
 
 use clap::Args;
 use clap::builder::RangedU64ValueParser;
@@ -12,8 +15,10 @@ use crate::bench::format::Format;
 use crate::database::Database;
 use crate::failure::{EXIT_STATUS, Failure};
 use crate::terminal;
+#[cfg(feature = "embree")]
+use crate::terminal::BAD;
 use contender::Contender;
-use race::Figures;
+use table::Table;
 
 const EXAMPLES: &str = "Examples:
   occlusion bench point city --database postgresql://me@localhost/scratch
@@ -27,6 +32,10 @@ const EXAMPLES: &str = "Examples:
 /// not what is hidden; the way of 2004, which is the same less what occlusion volumes hide, where the scene has some; and
 /// a sight line of PostGIS to the middle of each building, which misses what is seen elsewhere.
 /// The first call of new connections is measured too.
+///
+/// Built with the feature "embree", it also looks around with item buffers of Embree, and says of every way
+/// what it returns too much (Q) and what it misses, against rays that are cast exactly. An answer of this
+/// extension that misses something ends it with status 1.
 ///
 /// It needs scenes with streets, creates the extension postgis where it is missing, and a schema
 /// occlusion_bench_point, which it drops, also when it was there before. "make bench-point" makes the scenes.
@@ -50,6 +59,10 @@ pub struct Point {
     /// Seed of the observers
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: i64,
+    /// The first so many observers are judged: what is truly visible, and what item buffers show
+    #[cfg(feature = "embree")]
+    #[arg(long, value_name = "N", default_value_t = 50)]
+    truth: usize,
     /// How tables are printed
     #[arg(long, value_enum, default_value_t = Format::Plain)]
     format: Format,
@@ -58,13 +71,18 @@ pub struct Point {
 }
 
 impl Point {
-    /// Runs the command.
-    pub fn run(&self) -> Result<(), Failure> {
+    /// Runs the command; whether no answer that claims to be complete lacks something visible.
+    pub fn run(&self) -> Result<bool, Failure> {
         let mut client = self.database.connect()?;
         let has_postgis = contender::find_postgis(&mut client)?;
         if !has_postgis {
             anstream::eprintln!("the server has no PostGIS: its ways are left out");
         }
+        #[cfg(not(feature = "embree"))]
+        anstream::eprintln!(
+            "built without Embree: item buffers, Q and what is missed are left out"
+        );
+        let mut is_sound = true;
         for scene in &self.scenes {
             let spinner = terminal::spinner("making observers and rivals' tables");
             observers::place(&mut client, scene, self.observers, self.seed)?;
@@ -74,10 +92,12 @@ impl Point {
             let has_volumes = contender::has_volumes(&mut client, scene)?;
             spinner.finish_and_clear();
             for &range in &self.ranges {
-                self.measure(&mut client, scene, range, has_postgis, has_volumes)?;
+                let contenders = Contender::all(scene, range, has_postgis, has_volumes);
+                is_sound &= self.measure(&mut client, scene, range, &contenders)?;
             }
         }
-        Ok(client.batch_execute(contender::CLOSE)?)
+        client.batch_execute(contender::CLOSE)?;
+        Ok(is_sound)
     }
 
     fn measure(
@@ -85,57 +105,64 @@ impl Point {
         client: &mut Client,
         scene: &str,
         range: f64,
-        has_postgis: bool,
-        has_volumes: bool,
-    ) -> Result<(), Failure> {
-        let contenders = Contender::all(scene, range, has_postgis, has_volumes);
+        contenders: &[Contender],
+    ) -> Result<bool, Failure> {
         let bar = terminal::bar(contenders.len(), "ways");
-        let figures = race::run(client, &contenders, self.observers, self.rounds, &bar)?;
+        let figures = race::run(client, contenders, self.observers, self.rounds, &bar)?;
         bar.finish_and_clear();
         let first = race::first_calls(|| self.database.connect(), &contenders[0])?;
-        println!("{}", self.format.title(&format!("{scene}, {range} m")));
-        println!("{}\n", self.table(&contenders, &figures));
-        println!(
-            "Connecting and the first call: {:.2} and {:.2} ms in the median.\n",
+        let mut table = Table::of(contenders, &figures);
+        table.remarks.push(format!(
+            "Connecting and the first call: {:.2} and {:.2} ms in the median.",
             first.connect, first.call
-        );
-        Ok(())
+        ));
+        let is_sound = self.judge(
+            client,
+            scene,
+            range,
+            contenders,
+            &mut table,
+            figures[0].median,
+        )?;
+        println!("{}", self.format.title(&format!("{scene}, {range} m")));
+        println!("{}\n", table.text(self.format));
+        Ok(is_sound)
     }
 
-    fn table(&self, contenders: &[Contender], figures: &[Figures]) -> String {
-        let ours = figures[0];
-        let rows: Vec<Vec<String>> = contenders
-            .iter()
-            .zip(figures)
-            .map(|(contender, figures)| {
-                vec![
-                    contender.name.to_owned(),
-                    figures.observers.to_string(),
-                    format!("{:.1}", figures.rows),
-                    format!("{:.3}", figures.median),
-                    format!("{:.3}", figures.p95),
-                    format!("{:.2}", figures.median / ours.median),
-                    optional(figures.batch, 3),
-                    optional(figures.batch.zip(ours.batch).map(|(a, b)| a / b), 2),
-                ]
-            })
-            .collect();
-        let heading = [
-            "way",
-            "observers",
-            "rows",
-            "ms",
-            "p95",
-            "ratio",
-            "ms in batch",
-            "ratio",
-        ];
-        let mut right = [true; 8];
-        right[0] = false;
-        self.format.table(&heading, &right, &rows)
+    /// Adds what the answers are worth; whether nothing is missing from those that claim to be complete.
+    #[cfg(feature = "embree")]
+    fn judge(
+        &self,
+        client: &mut Client,
+        scene: &str,
+        range: f64,
+        contenders: &[Contender],
+        table: &mut Table,
+        ours: f64,
+    ) -> Result<bool, Failure> {
+        if self.truth == 0 {
+            return Ok(true);
+        }
+        let bar = terminal::bar(self.truth.min(self.observers), "observers");
+        let mut trial = trial::run(client, scene, range, contenders, self.truth, &bar)?;
+        bar.finish_and_clear();
+        trial.add_to(table, ours);
+        for fault in &trial.false_occlusions {
+            anstream::eprintln!("{BAD}false occlusion:{BAD:#} {fault}");
+        }
+        Ok(trial.false_occlusions.is_empty())
     }
-}
 
-fn optional(number: Option<f64>, digits: usize) -> String {
-    number.map_or("–".to_owned(), |number| format!("{number:.digits$}"))
+    #[cfg(not(feature = "embree"))]
+    fn judge(
+        &self,
+        _: &mut Client,
+        _: &str,
+        _: f64,
+        _: &[Contender],
+        _: &mut Table,
+        _: f64,
+    ) -> Result<bool, Failure> {
+        Ok(true)
+    }
 }

@@ -146,6 +146,7 @@ pub fn first_calls(
     })
 }
 
-fn milliseconds(began: Instant) -> f64 {
+/// Since then.
+pub fn milliseconds(began: Instant) -> f64 {
     began.elapsed().as_secs_f64() * 1e3
 }

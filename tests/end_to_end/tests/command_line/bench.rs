@@ -1,7 +1,8 @@
 //! The benchmarks, on little data: that everything is measured and that answers agree, not how
 //! long it takes.
 
-use end_to_end::{TestDatabase, occlusion};
+use end_to_end::{City, Run, TestDatabase, occlusion, occlusion_with_embree};
+use tempfile::tempdir;
 
 /// Indexes with the extension that they need, and whether they answer every search.
 const INDEXES: [(&str, Option<&str>, &[&str]); 7] = [
@@ -84,37 +85,50 @@ fn every_index_is_measured_on_every_data_set() {
     assert!(!database.finds(SCHEMA, "occlusion_bench_index"));
 }
 
-#[test]
-fn every_way_to_see_is_measured_on_every_scene() {
-    let mut database = TestDatabase::new("bench_point");
+/// The ways of the point benchmark whose answers are complete.
+const COMPLETE: [&str; 5] = [
+    "visible_features",
+    "box3d, in range only",
+    "2004: less what volumes hide",
+    "PostGIS n-D, in range only",
+    "PostGIS 2D and z, in range only",
+];
+
+/// A database with a town that has streets and volumes.
+fn town(test: &str) -> TestDatabase {
+    let mut database = TestDatabase::new(test);
     database
         .client
         .batch_execute("SELECT occlusion.generate_city('a town', 'streets', 150, 1)")
         .unwrap();
     let call = "CALL occlusion.generate_occlusion_volumes('a town', smallest => 4, range => 100)";
     database.client.batch_execute(call).unwrap();
-    let run = occlusion(&[
-        "bench",
-        "point",
-        "a town",
-        "--range",
-        "60",
-        "--range",
-        "120",
-        "--observers",
-        "12",
-        "--rounds",
-        "1",
-        "--format",
-        "markdown",
-        "--database",
-        &database.url,
-    ])
-    .expect(0);
+    database
+}
+
+fn bench_point(
+    program: fn(&[&str]) -> Run,
+    database: &TestDatabase,
+    scene: &str,
+    more: &[&str],
+) -> Run {
+    let mut arguments = vec!["bench", "point", scene, "--database", &database.url];
+    arguments.extend(["--observers", "12", "--rounds", "1", "--format", "markdown"]);
+    arguments.extend(more);
+    program(&arguments)
+}
+
+#[test]
+fn every_way_to_see_is_measured_on_every_scene() {
+    let mut database = town("bench_point");
+    let ranges = ["--range", "60", "--range", "120"];
+    let run = bench_point(occlusion, &database, "a town", &ranges).expect(0);
+    assert!(run.stderr.contains("built without Embree"), "{run:?}");
     let text = &run.stdout;
     let rows = cells(text);
     assert_eq!(text.matches("### a town, ").count(), 2, "{text}");
     assert_eq!(text.matches("Connecting and the first call: ").count(), 2);
+    assert!(rows.iter().all(|row| row.len() == 8), "{text}");
     let of = |way: &str| -> Vec<f64> {
         let rows = rows.iter().filter(|row| row[0] == way);
         let number = |row: &Vec<&str>| row[2].parse().unwrap_or_else(|_| panic!("{row:?}"));
@@ -143,4 +157,81 @@ fn every_way_to_see_is_measured_on_every_scene() {
     }
     assert!(!database.finds(SCHEMA, "occlusion_bench_point"));
     occlusion(&["bench", "point", "atlantis", "--database", &database.url]).expect(3);
+}
+
+#[test]
+fn item_buffers_are_measured_and_answers_are_judged() {
+    let database = town("bench_point_truth");
+    let more = ["--range", "100", "--truth", "6"];
+    let run = bench_point(occlusion_with_embree, &database, "a town", &more).expect(0);
+    let text = &run.stdout;
+    let rows = cells(text);
+    assert!(rows.iter().all(|row| row.len() == 10), "{text}");
+    let row = |way: &str| rows.iter().find(|row| row[0] == way);
+    let number = |row: &Vec<&str>, column: usize| -> f64 {
+        let cell = row[column].trim_end_matches(" %");
+        cell.parse().unwrap_or_else(|_| panic!("{row:?}"))
+    };
+    for row in COMPLETE.iter().filter_map(|way| row(way)) {
+        assert!(row[9] == "0" && number(row, 8) >= 0.0, "{row:?}");
+    }
+    let over_estimate = |way: &str| number(row(way).unwrap(), 8);
+    let (ours, all) = (over_estimate(COMPLETE[0]), over_estimate(COMPLETE[1]));
+    assert!(ours < all && all > 0.5, "{text}");
+    let cone = row("the same, in a cone of 60 degrees").unwrap();
+    assert_eq!(cone[8..], ["–", "–"]);
+    if let Some(sight_lines) = row("PostGIS, a sight line to each middle") {
+        assert!(number(sight_lines, 9) > 0.0, "{text}");
+    }
+    let buffers: Vec<&Vec<&str>> = rows
+        .iter()
+        .filter(|row| row[0].starts_with("Embree item buffer, 6 × "))
+        .collect();
+    assert_eq!(buffers.len(), 3, "{text}");
+    for row in &buffers {
+        assert!(row[1] == "6" && number(row, 3) > 0.0, "{row:?}");
+        assert!((0.0..50.0).contains(&number(row, 9)), "{row:?}");
+    }
+    assert!(number(buffers[0], 3) < number(buffers[2], 3), "{text}");
+    assert!(number(buffers[0], 9) >= number(buffers[2], 9), "{text}");
+    assert!(text.contains("built into a tree of Embree in "), "{text}");
+}
+
+#[test]
+fn without_truth_no_answer_is_judged() {
+    let database = town("bench_point_no_truth");
+    let more = ["--range", "60", "--truth", "0"];
+    let run = bench_point(occlusion_with_embree, &database, "a town", &more).expect(0);
+    assert!(cells(&run.stdout).iter().all(|row| row.len() == 8));
+    assert!(!run.stderr.contains("Embree"), "{run:?}");
+}
+
+#[test]
+fn an_answer_that_misses_something_ends_it_with_an_error() {
+    let mut database = TestDatabase::new("bench_point_fault");
+    let folder = tempdir().unwrap();
+    let city = City::blocks().write(folder.path());
+    let city = city.to_str().unwrap();
+    occlusion(&[
+        "import",
+        city,
+        "--scene",
+        "blocks",
+        "--database",
+        &database.url,
+    ])
+    .expect(0);
+    let more = ["--range", "300", "--truth", "12"];
+    let ask =
+        |database: &TestDatabase| bench_point(occlusion_with_embree, database, "blocks", &more);
+    ask(&database).expect(0);
+    // Every other house is lower than what counts as solid of it.
+    let change = "UPDATE blocks.mesh SET vertices = (
+            SELECT array_agg(CASE WHEN i % 3 = 0 THEN least(v, 1) ELSE v END ORDER BY i)
+            FROM unnest(vertices) WITH ORDINALITY AS u (v, i))
+        WHERE feature % 2 = 0";
+    database.client.batch_execute(change).unwrap();
+    let run = ask(&database).expect(1);
+    let fault = "false occlusion: \"visible_features\" leaves out Building ";
+    assert!(run.stderr.contains(fault), "{run:?}");
 }

@@ -1,8 +1,8 @@
 //! What can be seen from a point: chosen cases. Random ones are attacked exactly elsewhere.
 
 use engine::{
-    Box3d, CityLayout, PointQuery, PointSolver, SolidColumn, Tile, TileFeature, TileSource,
-    generated_city, visible_from_point,
+    Box3d, CityLayout, PointQuery, PointSolver, Roof, SolidColumn, Tile, TileFeature, TileSource,
+    TriangleMesh, generated_city, visible_from_point,
 };
 use geo::{LineString, Polygon};
 use glam::{DVec2, DVec3};
@@ -34,7 +34,6 @@ fn rectangle([west, south]: [f64; 2], [east, north]: [f64; 2]) -> [[f64; 2]; 4] 
 fn house(id: i64, min: [f64; 2], max: [f64; 2], top: f64) -> TileFeature {
     let columns = vec![column(&[&rectangle(min, max)], 0.0, top, true)];
     TileFeature {
-        roof: None,
         columns,
         ..thing(id, min, max, [0.0, top])
     }
@@ -206,7 +205,6 @@ fn a_courtyard_is_not_inside_and_its_far_wall_hides() {
     let mut inner = rectangle([-10.0, -10.0], [10.0, 10.0]);
     inner.reverse();
     let block = TileFeature {
-        roof: None,
         columns: vec![column(&[&outer, &inner], 0.0, 15.0, true)],
         ..thing(1, [-20.0, -20.0], [20.0, 20.0], [0.0, 15.0])
     };
@@ -221,10 +219,81 @@ fn a_courtyard_is_not_inside_and_its_far_wall_hides() {
     assert_eq!(seen(&scene, &query(0.0, 15.0, 1.75)), [1, 2, 3]);
 }
 
+/// A house with eaves at 3 m and a ridge at 8 m.
+fn gabled(id: i64, grounded: [bool; 2]) -> TileFeature {
+    let point = |x: f64, y: f64, z: f64| DVec3::new(x + PLACE.x, y + PLACE.y, z);
+    let end = |x: f64| {
+        let [front, middle, back] = [10.0, 15.0, 20.0];
+        [
+            [point(x, front, 0.0), point(x, front, 3.0)],
+            [point(x, middle, 0.0), point(x, middle, 8.0)],
+            [point(x, back, 0.0), point(x, back, 3.0)],
+        ]
+    };
+    let [[a, b], [c, d], [e, f]] = end(-10.0);
+    let [[p, q], [r, s], [t, u]] = end(10.0);
+    let faces = [
+        [a, c, r, p],
+        [c, e, t, r],
+        [b, q, s, d],
+        [d, s, u, f],
+        [a, p, q, b],
+        [t, e, f, u],
+        [c, a, b, d],
+        [e, c, d, f],
+        [p, r, s, q],
+        [r, t, u, s],
+    ];
+    let mesh = TriangleMesh::from_polygons(faces.map(|face| [face.to_vec()]));
+    let envelope = mesh.envelope().expect("vertices");
+    let half = |west: f64, grounded| {
+        let footprint = rectangle([west, 10.0], [west + 10.0, 20.0]);
+        column(&[&footprint], 0.0, 3.0, grounded)
+    };
+    TileFeature {
+        id,
+        envelope,
+        outline: Vec::new(),
+        roof: Roof::of(&mesh, &envelope),
+        columns: vec![half(-10.0, grounded[0]), half(0.0, grounded[1])],
+    }
+}
+
+#[test]
+fn a_ridge_hides_where_all_columns_do() {
+    // Above the eaves, below the ridge, and above it.
+    let scene = |grounded| {
+        [
+            gabled(1, grounded),
+            thing(2, [-1.0, 40.0], [1.0, 41.0], [0.0, 10.0]),
+            thing(3, [-1.0, 60.0], [1.0, 61.0], [0.0, 40.0]),
+        ]
+    };
+    assert_eq!(seen(&scene([true; 2]), &query(0.0, 0.0, 1.75)), [1, 3]);
+    for grounded in [[true, false], [false; 2]] {
+        assert_eq!(seen(&scene(grounded), &query(0.0, 0.0, 1.75)), [1, 2, 3]);
+    }
+    // Beside the house in its envelope or over it, columns alone hide.
+    let from_the_roof = query(0.0, 12.0, 4.5);
+    assert_eq!(seen(&scene([true; 2]), &from_the_roof), [1, 2, 3]);
+}
+
+#[test]
+fn a_roof_is_hidden_where_its_prism_is_not() {
+    let wall = house(9, [-10.0, 5.0], [10.0, 6.0], 4.0);
+    let plain = TileFeature {
+        roof: None,
+        ..gabled(1, [true; 2])
+    };
+    // The sight line over the wall meets the front of the prism 6.25 m high, and is over the ridge at 8.5 m.
+    let query = query(0.0, 0.0, 1.75);
+    assert_eq!(seen(&[wall.clone(), plain], &query), [1, 9]);
+    assert_eq!(seen(&[wall, gabled(1, [true; 2])], &query), [9]);
+}
+
 #[test]
 fn under_a_bridge_one_looks_through() {
     let deck = |grounded| TileFeature {
-        roof: None,
         columns: vec![column(
             &[&rectangle([-30.0, 10.0], [30.0, 20.0])],
             5.0,

@@ -82,7 +82,7 @@ fn feature_of(row: &Row) -> Option<BaseFeature> {
     })
 }
 
-/// Adds what hides: solid columns, or the inner envelope where there are none.
+/// Adds what hides: solid columns, or the inner envelope where none is grounded.
 fn add_columns(statements: &Statements, moment: Moment, features: &mut [BaseFeature]) {
     if features.is_empty() {
         return;
@@ -102,7 +102,7 @@ fn add_columns(statements: &Statements, moment: Moment, features: &mut [BaseFeat
     });
     let has_columns: Vec<bool> = features
         .iter()
-        .map(|base| !base.feature.columns.is_empty())
+        .map(|base| base.feature.columns.iter().any(|column| column.grounded))
         .collect();
     statements
         .get(Ask::InnerEnvelopes)
@@ -143,7 +143,7 @@ fn add_roofs(statements: &Statements, moment: Moment, features: &mut [BaseFeatur
     }
 }
 
-/// A row of feature, footprint, bottom, top.
+/// A row of feature, footprint, bottom, top, grounded.
 pub fn column_of(row: &Row) -> Option<SolidColumn> {
     let (footprint, is_null) = row.datum(2);
     if is_null {
@@ -157,7 +157,7 @@ pub fn column_of(row: &Row) -> Option<SolidColumn> {
         footprint: footprint.orient(Direction::Default),
         bottom: row.get(3)?,
         top: row.get(4)?,
-        grounded: true,
+        grounded: row.get(5)?,
     })
 }
 

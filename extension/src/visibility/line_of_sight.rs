@@ -132,7 +132,7 @@ impl<'a> Search<'a> {
                 None => bare.push(feature),
             }
         }
-        let columns = self.solids(Ask::AllColumns, &bare, column_of);
+        let columns = self.solids(Ask::Columns, &bare, column_of);
         bare.retain(|feature| !columns.contains_key(feature));
         let boxes = self.solids(Ask::AllInnerEnvelopes, &bare, |row| {
             row.get::<Box3d>(2).map(|bounds| upright(&bounds.0))

@@ -39,7 +39,7 @@ pub enum Ask {
     FeaturesNear,
     /// The same of the features with some ids.
     FeaturesOf,
-    /// Feature, footprint, bottom and top of the grounded columns of some features.
+    /// Feature, footprint, bottom and top of the columns of some features, and whether they are grounded.
     Columns,
     /// Feature and box of the grounded inner envelopes of some features.
     InnerEnvelopes,
@@ -49,8 +49,6 @@ pub enum Ask {
     EnvelopesNear,
     /// Feature, vertices, triangles of some features, and whether these enclose a solid.
     Meshes,
-    /// Feature, footprint, bottom and top of all columns of some features.
-    AllColumns,
     /// Feature and box of all inner envelopes of some features.
     AllInnerEnvelopes,
 }
@@ -83,11 +81,11 @@ impl Ask {
             ),
             Self::FeaturesNear => format!("{features} WHERE envelope OPERATOR(occlusion.&&) $1"),
             Self::FeaturesOf => format!("{features} WHERE id OPERATOR(pg_catalog.=) ANY ($1)"),
-            Self::Columns => format!("{} AND grounded", Self::AllColumns.text(name)),
             Self::InnerEnvelopes => format!("{} AND grounded", Self::AllInnerEnvelopes.text(name)),
-            Self::AllColumns => format!(
+            Self::Columns => format!(
                 "SELECT feature::pg_catalog.int8, footprint::pg_catalog.polygon[], \
-                        bottom::pg_catalog.float8, top::pg_catalog.float8 \
+                        bottom::pg_catalog.float8, top::pg_catalog.float8, \
+                        grounded::pg_catalog.bool \
                  FROM {scene}.solid_column WHERE feature OPERATOR(pg_catalog.=) ANY ($1)"
             ),
             Self::AllInnerEnvelopes => format!(
@@ -117,7 +115,6 @@ impl Ask {
             | Self::Columns
             | Self::InnerEnvelopes
             | Self::Meshes
-            | Self::AllColumns
             | Self::AllInnerEnvelopes => vec![pg_sys::INT8ARRAYOID],
             Self::EnvelopesNear => vec![Box3d::type_oid(), pg_sys::INT8ARRAYOID],
             Self::Tiles | Self::Edits | Self::FeaturesNear => vec![Box3d::type_oid()],

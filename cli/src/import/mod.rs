@@ -73,7 +73,9 @@ impl Import {
     pub fn run(&self) -> Result<(), Failure> {
         let began = Instant::now();
         let mut files = file::open_all(&self.files)?;
-        let mut client = self.database.connect()?;
+        let mut client = self
+            .database
+            .connect_heeding(|notice| anstream::eprintln!("notice: {notice}"))?;
         let mut transaction = client.transaction()?;
         if self.replace {
             drop_scene(&mut transaction, &self.scene)?;

@@ -36,7 +36,8 @@ const EXAMPLES: &str = "Examples:
 ///
 /// Every stored occlusion volume, solid column, inner and outer envelope is checked by exact arithmetic. From
 /// observers in the streets, half of them on corners and edges of volumes, the real meshes are drawn
-/// as cube maps of feature numbers, and rays are aimed at each feature that the answer left out.
+/// as cube maps of feature numbers, and rays are aimed at each feature that the answer left out, or has
+/// though no pixel shows it.
 /// What is disputed is recast exactly.
 #[derive(Args, Debug)]
 #[command(after_help = format!("{EXAMPLES}\n\n{EXIT_STATUS}"))]
@@ -64,7 +65,7 @@ pub struct Verify {
     #[arg(long, value_name = "PIXELS", default_value_t = 1024,
           value_parser = RangedU64ValueParser::<u32>::new().range(1..))]
     resolution: u32,
-    /// Rays at each feature that an answer left out
+    /// Rays at each feature that an answer left out, or has though no pixel shows it
     #[arg(long, value_name = "N", default_value_t = 64)]
     rays: usize,
     /// Points all over the solid columns that must be inside, besides the proofs

@@ -106,8 +106,8 @@ impl Packing {
                 format!("permission denied to pack tiles of scene \"{name}\""),
             )
             .detail(
-                "It takes SELECT on all rows of feature, solid_column, inner_envelope and mesh, INSERT \
-                 and DELETE on tile, DELETE on edit, and UPDATE on scene_info.",
+                "It takes SELECT on all rows of feature, solid_column, inner_envelope, mesh, tile and \
+                 edit, INSERT and DELETE on tile, DELETE on edit, and UPDATE on scene_info.",
             ));
         }
         // Without a tile in sight, the last edits may be from before there was a log: a packing that was

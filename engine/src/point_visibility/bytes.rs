@@ -16,7 +16,7 @@ const FORM: u32 = 1;
 /// Bytes of a node, a feature, a column, a ring, a corner, and an edge and a corner of a roof.
 const NODE: usize = 6 * 8 + 2 * 4;
 const FEATURE: usize = 8 + 6 * 8 + 8 * 4;
-const COLUMN: usize = 8 + 2 * 4;
+const COLUMN: usize = 2 * 8 + 2 * 4;
 const RING: usize = 2 * 4;
 const CORNER: usize = 2 * 8 + 1;
 const RIDGE: usize = 2 * 4;
@@ -67,6 +67,7 @@ impl Tile {
             bytes.range(&feature.crests);
         }
         for column in &self.columns {
+            bytes.real(column.bottom);
             bytes.real(column.top);
             bytes.range(&column.rings);
         }
@@ -151,7 +152,8 @@ impl Tile {
         for &end in self.ridges.as_flattened() {
             within(&(end..end), peaks.saturating_sub(1), "corners of roofs")?;
         }
-        let are_finite = self.columns.iter().all(|column| column.top.is_finite())
+        let is_column = |column: &Column| column.top.is_finite() && column.bottom < f64::INFINITY;
+        let are_finite = self.columns.iter().all(is_column)
             && self.corners.iter().all(|corner| corner.is_finite())
             && self.peaks.iter().all(|peak| peak.is_finite());
         in_order(are_finite, "coordinates")
@@ -291,6 +293,7 @@ impl Reader<'_> {
 
     fn column(&mut self) -> Column {
         Column {
+            bottom: self.real(),
             top: self.real(),
             rings: self.range(),
         }

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 use super::horizon::{Horizon, SUMMIT};
 use super::occluder::{Measure, Wall};
 use super::projection::{SIDES, Side, Span};
-use super::solver::{PointQuery, PointSolver, TileSource, Walker, depth, plan_corners};
+use super::solver::{PointQuery, PointSolver, TileSource, Walker, depth, is_shallow, plan_corners};
 use super::target::{edge_slopes, outline_slopes};
 use super::tile::Tile;
 use super::{EYE_MARGIN, PLACE_MARGIN};
@@ -73,6 +73,7 @@ impl PointSolver {
         shut(&mut self.horizon, &lines);
         let mut search = Search {
             limit,
+            is_shallow: is_shallow(eye, &target.envelope),
             known: HashSet::from([target.id]),
             candidates: Vec::new(),
             walls: Vec::new(),
@@ -154,6 +155,8 @@ struct Candidate {
 /// Gathers what may take part: what rises above the lines of the target, nearer than all of it.
 struct Search {
     limit: f64,
+    /// Whether walls with air below them hide the target.
+    is_shallow: bool,
     /// A feature may be met once for each tile that it stands in.
     known: HashSet<i64>,
     candidates: Vec<Candidate>,
@@ -182,7 +185,8 @@ impl Walker for Search {
         let first = self.walls.len();
         let (finder, horizon) = (&mut solver.finder, &solver.horizon);
         finder.walls(tile, feature, query.eye, Measure::Slope, &mut |wall| {
-            if wall.depth < self.limit && !horizon.covers(&wall.slopes) {
+            let may_hide = self.is_shallow || !wall.is_raised;
+            if may_hide && wall.depth < self.limit && !horizon.covers(&wall.slopes) {
                 self.walls.push(wall);
             }
         });

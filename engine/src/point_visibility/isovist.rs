@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use super::EYE_MARGIN;
 use super::occluder::{Measure, Wall};
 use super::projection::{Edge, Span};
-use super::solver::{PointQuery, PointSolver, TileSource, Walker, depth, plan_corners};
+use super::solver::{PointQuery, PointSolver, TileSource, Walker, depth, is_below, plan_corners};
 use super::tile::Tile;
 use crate::Box3d;
 
@@ -90,7 +90,8 @@ impl Walker for Fronts {
     fn advance(&mut self, _: &mut PointSolver, _: f64) {}
 
     fn skips(&self, solver: &PointSolver, eye: DVec3, bounds: &Box3d) -> bool {
-        depth(eye, bounds) > EYE_MARGIN && solver.hides(&plan_corners(eye, bounds), 1.0)
+        depth(eye, bounds) > EYE_MARGIN
+            && is_below(&solver.horizon, &plan_corners(eye, bounds), 1.0)
     }
 
     fn meet(

@@ -42,6 +42,11 @@ const EDGE_ON: f64 = 1e-6;
 /// difference of.
 const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
 
+/// Columns that are not grounded hide what is seen over no lower slope than this, where sight lines of
+/// this slope and higher ones pass above their bottoms: of an eye 2 m above it a bottom that is
+/// nearer than 100 m, and of what stands 2 m lower than the eye what is farther than that.
+const SHALLOW: f64 = -0.02;
+
 /// A few roundings of a place: targets are taken to be wider than computed by as much, and what hides
 /// to be narrower.
 const PLACE_MARGIN: f64 = 4.0 * f64::EPSILON;

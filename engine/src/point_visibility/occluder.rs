@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::projection::{Edge, Facing, Span};
 use super::tile::{Column, Feature, Tile, positions};
-use super::{EYE_MARGIN, PLACE_MARGIN, ROUNDINGS, SLOPE_MARGIN};
+use super::{EYE_MARGIN, PLACE_MARGIN, ROUNDINGS, SHALLOW, SLOPE_MARGIN};
 
 /// Walls that lead away from the eye are cut where their depth has grown by this factor: each part
 /// hides only what is beyond all of it.
@@ -17,6 +17,8 @@ const DEPTH_MARGIN: f64 = 1e-8;
 #[derive(Clone, Copy, Debug)]
 pub struct Wall {
     pub depth: f64,
+    /// Whether it hides what is seen over no lower slope than [`SHALLOW`] alone: it has air below it.
+    pub is_raised: bool,
     /// Slopes to its top, or inverse depths.
     pub slopes: Span,
 }
@@ -61,8 +63,17 @@ impl WallFinder {
             }
             let height = match measure {
                 Measure::Slope => column.top - eye.z,
-                Measure::InverseDepth if column.top > eye.z => 1.0,
+                Measure::InverseDepth if column.top > eye.z && is_grounded(column) => 1.0,
                 Measure::InverseDepth => continue,
+            };
+            let reach = reach(column.bottom - eye.z);
+            let found = &mut |wall: Wall| {
+                if wall.depth < reach {
+                    found(Wall {
+                        is_raised: !is_grounded(column),
+                        ..wall
+                    });
+                }
             };
             for ring in &tile.rings[positions(&column.rings)] {
                 let corners = positions(ring);
@@ -197,9 +208,23 @@ fn walls(
                 to: (part.to + end.reach()).min(1.0),
                 ..slopes(part)
             };
-            found(Wall { depth, slopes });
+            found(Wall {
+                depth,
+                is_raised: false,
+                slopes,
+            });
         });
     }
+}
+
+fn is_grounded(column: &Column) -> bool {
+    column.bottom == f64::NEG_INFINITY
+}
+
+/// How near a wall must be so that what is seen over [`SHALLOW`] slopes passes above its bottom, at some
+/// height above the eye.
+fn reach(bottom: f64) -> f64 {
+    bottom / SHALLOW * (1.0 - SLOPE_MARGIN)
 }
 
 /// What is on the other side of a corner where a wall begins or ends.

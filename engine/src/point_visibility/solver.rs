@@ -7,12 +7,12 @@ use std::ops::ControlFlow;
 
 use glam::{DVec2, DVec3};
 
-use super::EYE_MARGIN;
 use super::horizon::Horizon;
 use super::occluder::{Measure, Wall, WallFinder};
 use super::projection::{Span, chebyshev};
 use super::target::{edge_slopes, outline_slopes};
 use super::tile::{Tile, TileFeature, positions};
+use super::{EYE_MARGIN, SHALLOW, SLOPE_MARGIN};
 use crate::{Box3d, PlanWedge, in_range};
 
 /// Squared distances below this share of the squared range are in range whatever the roundings.
@@ -72,6 +72,9 @@ pub struct Sighting {
 #[derive(Debug)]
 pub struct PointSolver {
     pub(super) horizon: Horizon,
+    /// The same with raised walls, once there are some.
+    raised: Horizon,
+    has_raised: bool,
     /// What is left to visit, nearest first.
     open: BinaryHeap<ByDepth<Visit>>,
     /// Walls that the walk has not passed yet, nearest far end first.
@@ -89,6 +92,8 @@ impl Default for PointSolver {
     fn default() -> Self {
         Self {
             horizon: Horizon::new(),
+            raised: Horizon::new(),
+            has_raised: false,
             open: BinaryHeap::new(),
             pending: BinaryHeap::new(),
             walls: Vec::new(),
@@ -171,6 +176,7 @@ impl PointSolver {
     /// Forgets the last query.
     pub(super) fn begin(&mut self) {
         self.horizon.clear();
+        self.has_raised = false;
         self.open.clear();
         self.pending.clear();
         self.walls.clear();
@@ -189,8 +195,29 @@ impl PointSolver {
         while let Some(nearest) = self.pending.peek()
             && nearest.depth < depth
         {
-            self.horizon.raise(&self.walls[nearest.item].slopes);
+            let wall = self.walls[nearest.item];
             self.pending.pop();
+            self.raise(&wall);
+        }
+    }
+
+    fn raise(&mut self, wall: &Wall) {
+        if !wall.is_raised {
+            self.horizon.raise(&wall.slopes);
+        } else if !self.has_raised {
+            self.raised.clone_from(&self.horizon);
+            self.has_raised = true;
+        }
+        if self.has_raised {
+            self.raised.raise(&wall.slopes);
+        }
+    }
+
+    /// The horizon for what is in a box.
+    fn horizon_for(&self, eye: DVec3, bounds: &Box3d) -> &Horizon {
+        match self.has_raised && is_shallow(eye, bounds) {
+            true => &self.raised,
+            false => &self.horizon,
         }
     }
 
@@ -214,10 +241,14 @@ impl PointSolver {
                     self.outline.clear();
                     self.outline
                         .extend(outline.iter().map(|&corner| corner - eye));
-                    self.hides(&self.outline, feature.envelope.max.z - query.eye.z)
+                    let horizon = self.horizon_for(query.eye, &feature.envelope);
+                    is_below(horizon, &self.outline, feature.envelope.max.z - query.eye.z)
                 }
                 // Its roof is below its prism.
-                _ => self.hides_roof(query.eye, tile, ridges),
+                _ => {
+                    let horizon = self.horizon_for(query.eye, &feature.envelope);
+                    is_roof_below(horizon, query.eye, tile, ridges)
+                }
             };
             if is_hidden {
                 return None;
@@ -257,30 +288,40 @@ impl PointSolver {
     /// Whether a box is below the horizon.
     pub(super) fn hides_box(&self, eye: DVec3, bounds: &Box3d) -> bool {
         depth(eye, bounds) > EYE_MARGIN
-            && self.hides(&plan_corners(eye, bounds), bounds.max.z - eye.z)
+            && is_below(
+                self.horizon_for(eye, bounds),
+                &plan_corners(eye, bounds),
+                bounds.max.z - eye.z,
+            )
     }
+}
 
-    /// Whether a prism is below the horizon: its corners in plan, relative to the eye, which is beside
-    /// it, and its top above the eye.
-    pub(super) fn hides(&self, corners: &[DVec2], top: f64) -> bool {
-        outline_slopes(corners, top, |line| self.below(line)).is_continue()
-    }
+/// Whether a prism is below a horizon: its corners in plan, relative to the eye, which is beside it, and
+/// its top above the eye.
+pub(super) fn is_below(horizon: &Horizon, corners: &[DVec2], top: f64) -> bool {
+    outline_slopes(corners, top, |line| while_hidden(horizon, line)).is_continue()
+}
 
-    /// Whether all edges of a roof are below the horizon. The eye is beside what it is the roof of.
-    fn hides_roof(&self, eye: DVec3, tile: &Tile, ridges: &[[u32; 2]]) -> bool {
-        ridges.iter().all(|ridge| {
-            let [from, to] = ridge.map(|end| tile.peaks[end as usize] - eye);
-            edge_slopes(from, to, |line| self.below(line)).is_continue()
-        })
-    }
+/// Whether all edges of a roof are below a horizon. The eye is beside what it is the roof of.
+fn is_roof_below(horizon: &Horizon, eye: DVec3, tile: &Tile, ridges: &[[u32; 2]]) -> bool {
+    ridges.iter().all(|ridge| {
+        let [from, to] = ridge.map(|end| tile.peaks[end as usize] - eye);
+        edge_slopes(from, to, |line| while_hidden(horizon, line)).is_continue()
+    })
+}
 
-    fn below(&self, line: &Span) -> ControlFlow<()> {
-        if self.horizon.hides(line) {
-            ControlFlow::Continue(())
-        } else {
-            ControlFlow::Break(())
-        }
+fn while_hidden(horizon: &Horizon, line: &Span) -> ControlFlow<()> {
+    if horizon.hides(line) {
+        ControlFlow::Continue(())
+    } else {
+        ControlFlow::Break(())
     }
+}
+
+/// Whether all of a box is seen over slopes that are not lower than [`SHALLOW`].
+pub(super) fn is_shallow(eye: DVec3, bounds: &Box3d) -> bool {
+    let foot = bounds.min.z - eye.z;
+    foot >= 0.0 || foot * (1.0 + SLOPE_MARGIN) >= SHALLOW * depth(eye, bounds)
 }
 
 /// As [`in_range`], with no root where the answer is plain.

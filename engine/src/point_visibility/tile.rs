@@ -28,7 +28,7 @@ pub struct TileFeature {
     /// Where it is seen highest; `None` if nothing more than the prism is known. It hides, too, if all
     /// columns do.
     pub roof: Option<Roof>,
-    /// What hides. Only grounded columns within the envelope do, from a point.
+    /// What hides. Only columns within the envelope do, from a point.
     pub columns: Vec<SolidColumn>,
 }
 
@@ -62,9 +62,11 @@ pub struct Feature {
     pub crests: Range<u32>,
 }
 
-/// A grounded column.
+/// A column.
 #[derive(Clone, Debug)]
 pub struct Column {
+    /// Negative infinity where it is grounded.
+    pub bottom: f64,
     pub top: f64,
     /// Outer ring anticlockwise, then holes clockwise.
     pub rings: Range<u32>,
@@ -119,13 +121,14 @@ impl Tile {
         let hiding: Vec<&SolidColumn> = feature
             .columns
             .iter()
-            .filter(|column| column.grounded && lies_within(column, &feature.envelope))
+            .filter(|column| lies_within(column, &feature.envelope))
             .collect();
+        let grounded = hiding.iter().copied().filter(|column| column.grounded);
         // A roof hides as the columns do that it was made with: not where they are gone, nor where a
         // part of them has air below it.
-        let has_all = !hiding.is_empty() && hiding.len() == feature.columns.len();
+        let has_all = grounded.clone().count() == feature.columns.len() && !hiding.is_empty();
         let may_hide = feature.roof.as_ref().filter(|roof| has_all && roof.hides);
-        let walls = Walls::of(&hiding);
+        let walls = Walls::of(grounded);
         let first = index(self.columns.len());
         for column in &hiding {
             self.add_column(column, &walls);
@@ -162,12 +165,18 @@ impl Tile {
             let corners = corners(ring);
             let edges = (0..corners.len()).map(|i| {
                 let next = corners[(i + 1) % corners.len()];
-                (corners[i], walls.bury(corners[i], next, column.top))
+                let is_buried = column.grounded && walls.bury(corners[i], next, column.top);
+                (corners[i], is_buried)
             });
             let range = self.add_corners(edges);
             self.rings.push(range);
         }
         self.columns.push(Column {
+            bottom: if column.grounded {
+                f64::NEG_INFINITY
+            } else {
+                column.bottom
+            },
             top: column.top,
             rings: first..index(self.rings.len()),
         });
@@ -198,11 +207,11 @@ fn crests(roof: &Roof, columns: &[&SolidColumn]) -> Vec<[u32; 2]> {
     roof.edges.iter().filter(is_crest).copied().collect()
 }
 
-/// Greatest height of the columns of one feature behind each edge, by the places of its ends.
+/// Greatest height of the grounded columns of one feature behind each edge, by the places of its ends.
 struct Walls(HashMap<[u64; 4], f64>);
 
 impl Walls {
-    fn of(columns: &[&SolidColumn]) -> Self {
+    fn of<'a>(columns: impl Iterator<Item = &'a SolidColumn>) -> Self {
         let mut walls = HashMap::new();
         for column in columns {
             for ring in rings(column) {

@@ -113,7 +113,8 @@ fn what_can_be_seen_is_inside_and_what_is_plainly_inside_can_be_seen() {
         }
     }
     assert!(outside > 100_000 && inside > 100_000, "{outside} {inside}");
-    assert!(hidden * 50 < inside, "{hidden} of {inside}");
+    // Level sight lines that end at columns with air below them are followed on.
+    assert!(hidden * 30 < inside, "{hidden} of {inside}");
 }
 
 #[test]

@@ -37,6 +37,8 @@ pub enum Kind {
     Parts,
     /// Houses whose corners are on one line with the eye, but for roundings.
     Lined,
+    /// Houses a little above the ground around an eye that is hardly higher: one looks below the near ones.
+    Raised,
 }
 
 /// The features of a random scene, and an eye if it is made for one.
@@ -46,7 +48,7 @@ pub struct Made {
 }
 
 impl Kind {
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Integers,
         Self::Overlapping,
         Self::Angles,
@@ -62,12 +64,16 @@ impl Kind {
         Self::Flush,
         Self::Parts,
         Self::Lined,
+        Self::Raised,
     ];
 
     /// A random scene of this kind.
     pub fn make(self, rng: &mut Rng) -> Made {
         if self == Self::Lined {
             return lined(rng);
+        }
+        if self == Self::Raised {
+            return raised(rng);
         }
         Made {
             features: self.features(rng),
@@ -109,6 +115,7 @@ impl Kind {
             Self::Flush => many(count, || flush(rng)),
             Self::Parts => many(count / 2, || parts(rng)),
             Self::Lined => lined(rng).features,
+            Self::Raised => raised(rng).features,
         }
     }
 }
@@ -433,6 +440,24 @@ fn parts(rng: &mut Rng) -> Feature {
 }
 
 /// Houses on the left and on the right of lines of sight, each with a corner on the line.
+fn raised(rng: &mut Rng) -> Made {
+    let houses = rng.usize(6..=24);
+    let features = many(houses, || {
+        let [x, y] = [whole(rng, -70, 70), whole(rng, -70, 70)];
+        let corners = rectangle(x, y, x + whole(rng, 1, 20), y + whole(rng, 1, 20));
+        let foot = [0.0, 0.02, 0.1, 0.3, 1.0][rng.usize(..5)];
+        let column = block(corners, foot, foot + between(rng, 0.1, 6.0));
+        Feature::of(vec![Column {
+            grounded: foot == 0.0 && rng.bool(),
+            ..column
+        }])
+    });
+    Made {
+        features,
+        eye: Some([between(rng, -20.0, 20.0), between(rng, -20.0, 20.0)]),
+    }
+}
+
 fn lined(rng: &mut Rng) -> Made {
     let eye = [between(rng, 0.0, 20.0), between(rng, 0.0, 20.0)];
     let mut features = Vec::new();

@@ -37,9 +37,10 @@ struct Block {
     rows: Option<Vec<Vec<String>>>,
 }
 
-/// A fence: where it starts, the words after its ticks, and what is in it.
+/// A fence: where it starts, how far to the right, the words after its ticks, and what is in it.
 struct Fence {
     line: usize,
+    indent: usize,
     words: Vec<String>,
     body: Vec<String>,
 }
@@ -137,14 +138,15 @@ fn fences(page: &str) -> Vec<Fence> {
         match (is_open, text.strip_prefix("```")) {
             (false, Some(words)) => fences.push(Fence {
                 line: number + 1,
+                indent: line.len() - text.len(),
                 words: words.split_whitespace().map(str::to_owned).collect(),
                 body: Vec::new(),
             }),
-            (true, None) => fences
-                .last_mut()
-                .expect("an open fence")
-                .body
-                .push(line.to_owned()),
+            (true, None) => {
+                let fence = fences.last_mut().expect("an open fence");
+                let line = line.get(fence.indent..).unwrap_or_default();
+                fence.body.push(line.to_owned());
+            }
             _ => {}
         }
         is_open ^= text.starts_with("```");

@@ -71,6 +71,13 @@ fn main() {
     directions(&eyes, range, &mut solver, &mut tiles);
     isovists(&eyes, range, &mut solver, &mut tiles);
     hiders(&features, &eyes, range, &mut solver, &mut tiles);
+    // The rays know boxes, prisms and columns alone.
+    let bare = |feature: TileFeature| TileFeature {
+        roof: None,
+        ..feature
+    };
+    let features: Vec<TileFeature> = features.into_iter().map(bare).collect();
+    let mut tiles = self::tiles(&features);
     judge(&features, &eyes[..JUDGED], range, &mut solver, &mut tiles);
 }
 

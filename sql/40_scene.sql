@@ -1,7 +1,7 @@
 -- Scenes: a schema of ordinary tables for each city. CREATE OR REPLACE, since upgrades run this file too.
 
 -- What every scene holds: the tables and the columns that functions read, with their types. Scenes of
--- format 1 have no tile and no edit.
+-- format 1 have nothing from "tile" on.
 CREATE OR REPLACE FUNCTION occlusion.scene_columns()
 RETURNS TABLE (table_name name, column_name name, type_name text)
 LANGUAGE sql IMMUTABLE PARALLEL SAFE
@@ -56,7 +56,16 @@ SET search_path = pg_catalog, pg_temp AS $$
         ('tile', 'version', 'uuid'),
         ('tile', 'content', 'bytea'),
         ('edit', 'feature', 'bigint'),
-        ('edit', 'place', 'occlusion.box3d')
+        ('edit', 'place', 'occlusion.box3d'),
+        ('view_cell', 'box', 'occlusion.box3d'),
+        ('view_cell', 'range', 'double precision'),
+        ('view_cell', 'visible', 'occlusion.feature_set'),
+        ('view_cell', 'snapshot', 'pg_snapshot'),
+        ('view_cell', 'cluster', 'bigint'),
+        ('view_cell_block', 'area', 'occlusion.box3d'),
+        ('change', 'feature', 'bigint'),
+        ('change', 'place', 'occlusion.box3d'),
+        ('change', 'transaction', 'xid8')
 $$;
 COMMENT ON FUNCTION occlusion.scene_columns() IS 'the tables of a scene and the columns that functions read';
 
@@ -96,7 +105,8 @@ BEGIN
              ON a.attrelid = c.oid AND a.attname = e.column_name AND NOT a.attisdropped
      WHERE (c.relkind IS NULL OR c.relkind NOT IN ('r', 'p')
             OR format_type(a.atttypid, a.atttypmod) IS DISTINCT FROM e.type_name)
-       AND NOT (c.relkind IS NULL AND e.table_name IN ('tile', 'edit'))
+       AND NOT (c.relkind IS NULL
+                AND e.table_name IN ('tile', 'edit', 'view_cell', 'view_cell_block', 'change'))
      LIMIT 1;
     IF FOUND THEN
         RAISE EXCEPTION 'scene "%" is damaged', scene
@@ -337,6 +347,7 @@ BEGIN
         ALTER TABLE %1$s.solid_column ENABLE ALWAYS TRIGGER forget_all_volumes;
     $ddl$, s, srid);
     PERFORM occlusion.add_tiles(scene);
+    PERFORM occlusion.add_view_cells(scene);
 END
 $$;
 COMMENT ON FUNCTION occlusion.create_scene(text, integer) IS

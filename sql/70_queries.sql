@@ -13,33 +13,43 @@ END;
 COMMENT ON FUNCTION occlusion.covers(polygon[], float8, float8, float8) IS
     'whether a point lies in a footprint (outer ring, then holes) or within a margin of it, metres';
 
--- The features that occlusion volumes hide from an eye, $1, and those that hide them. A volume counts only where the eye is in the
--- view region: an eye within a millimetre of a solid counts as inside it, and is not.
+-- Whether an eye, $1, is in the view region: what was computed ahead counts only there. An eye within a
+-- millimetre of a solid counts as inside it, and is not.
+CREATE OR REPLACE FUNCTION occlusion.is_eye_condition(scene text) RETURNS text
+LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
+SET search_path = pg_catalog, pg_temp AS $$
+    SELECT format($q$
+        EXISTS (
+            SELECT FROM %1$I.street AS s
+            WHERE s.envelope OPERATOR(occlusion.@>) $1
+              AND s.area[1] OPERATOR(pg_catalog.@>) pg_catalog.point(occlusion.x($1), occlusion.y($1))
+              AND NOT EXISTS (
+                  SELECT FROM pg_catalog.unnest(s.area[2:]) AS hole
+                  WHERE hole OPERATOR(pg_catalog.@>) pg_catalog.point(occlusion.x($1), occlusion.y($1)))
+        ) AND NOT EXISTS (
+            SELECT FROM %1$I.inner_envelope AS i
+            WHERE i.box OPERATOR(occlusion.&&)
+                      occlusion.expand(occlusion.box3d($1, $1), 0.001)
+        ) AND NOT EXISTS (
+            SELECT FROM %1$I.solid_column AS c
+            WHERE c.envelope OPERATOR(occlusion.&&)
+                      occlusion.expand(occlusion.box3d($1, $1), 0.001)
+              AND occlusion.covers(c.footprint, occlusion.x($1), occlusion.y($1), 0.001)
+        )
+    $q$, scene)
+$$;
+COMMENT ON FUNCTION occlusion.is_eye_condition(text) IS
+    'the condition that an eye is in the view region of a scene';
+
+-- The features that occlusion volumes hide from an eye, $1, and those that hide them.
 CREATE OR REPLACE FUNCTION occlusion.hidden_features_statement(scene text) RETURNS text
 LANGUAGE sql STABLE STRICT PARALLEL SAFE
 SET search_path = pg_catalog, pg_temp AS $$
     SELECT format($q$
         SELECT v.occludee, v.occluder
         FROM %1$I.occlusion_volume AS v
-        WHERE v.box OPERATOR(occlusion.@>) $1
-          AND (SELECT EXISTS (
-                   SELECT FROM %1$I.street AS s
-                   WHERE s.envelope OPERATOR(occlusion.@>) $1
-                     AND s.area[1] OPERATOR(pg_catalog.@>) pg_catalog.point(occlusion.x($1), occlusion.y($1))
-                     AND NOT EXISTS (
-                         SELECT FROM pg_catalog.unnest(s.area[2:]) AS hole
-                         WHERE hole OPERATOR(pg_catalog.@>) pg_catalog.point(occlusion.x($1), occlusion.y($1)))
-               ) AND NOT EXISTS (
-                   SELECT FROM %1$I.inner_envelope AS i
-                   WHERE i.box OPERATOR(occlusion.&&)
-                             occlusion.expand(occlusion.box3d($1, $1), 0.001)
-               ) AND NOT EXISTS (
-                   SELECT FROM %1$I.solid_column AS c
-                   WHERE c.envelope OPERATOR(occlusion.&&)
-                             occlusion.expand(occlusion.box3d($1, $1), 0.001)
-                     AND occlusion.covers(c.footprint, occlusion.x($1), occlusion.y($1), 0.001)
-               ))
-    $q$, scene)
+        WHERE v.box OPERATOR(occlusion.@>) $1 AND (SELECT %2$s)
+    $q$, scene, occlusion.is_eye_condition(scene))
 $$;
 COMMENT ON FUNCTION occlusion.hidden_features_statement(text) IS
     'the statement that finds what occlusion volumes hide from an eye';

@@ -5,19 +5,18 @@
 //!     cargo run --release -p engine --example point_figures -- FILE 0 500 [HEIGHT]
 
 mod real_city;
+mod tiled_city;
 
 use std::collections::HashSet;
 use std::f64::consts::TAU;
 use std::time::Instant;
 
 use engine::{
-    Box3d, CityLayout, Extents, LocalGround, OuterPrism, PointQuery, PointSolver, PointTarget,
-    Roof, Site, SolidColumn, Street, TargetShape, Tile, TileFeature, TileSource, ViewRegionOptions,
-    generated_city, open_space,
+    Box3d, Extents, PointQuery, PointSolver, PointTarget, Roof, SolidColumn, TargetShape,
+    TileFeature,
 };
-use formats::{ReadOptions, read_bytes};
 use glam::{DVec2, DVec3};
-use real_city::{House, columns};
+use tiled_city::{Tiles, tiles};
 
 /// Observers that are timed, and how often the whole round is.
 const EYES: usize = 1000;
@@ -27,9 +26,6 @@ const ROUNDS: usize = 5;
 const JUDGED: usize = 12;
 const RAYS: usize = 32_768;
 
-/// Metres along a side of a tile.
-const TILE: f64 = 400.0;
-
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let number = |i: usize, usual: f64| {
@@ -38,10 +34,7 @@ fn main() {
             .map_or(usual, |text| text.parse().expect("a number"))
     };
     let city = arguments.first().map_or("streets", String::as_str);
-    let (features, streets) = match city {
-        "streets" => made(number(1, 100_000.0) as usize),
-        file => read(file),
-    };
+    let (features, streets) = tiled_city::city(city, number(1, 100_000.0) as usize);
     let range = number(2, 500.0);
     let mut eyes = real_city::eyes(&streets, EYES);
     let height = number(3, 0.0);
@@ -161,39 +154,6 @@ fn hiders(
         share * 100.0,
         count / share
     );
-}
-
-/// The features of a city in squares.
-struct Tiles {
-    bounds: Vec<Box3d>,
-    tiles: Vec<Tile>,
-}
-
-impl TileSource for Tiles {
-    type Error = std::convert::Infallible;
-
-    fn bounds(&self) -> &[Box3d] {
-        &self.bounds
-    }
-
-    fn tile(&mut self, position: usize) -> Result<&Tile, Self::Error> {
-        Ok(&self.tiles[position])
-    }
-}
-
-fn tiles(features: &[TileFeature]) -> Tiles {
-    let mut groups = std::collections::BTreeMap::new();
-    for feature in features {
-        let place = (feature.envelope.center() / TILE).floor();
-        let group: &mut Vec<TileFeature> =
-            groups.entry((place.x as i64, place.y as i64)).or_default();
-        group.push(feature.clone());
-    }
-    let tiles: Vec<Tile> = groups.values().map(|group| Tile::new(group)).collect();
-    Tiles {
-        bounds: tiles.iter().filter_map(Tile::bounds).collect(),
-        tiles,
-    }
 }
 
 fn answer(
@@ -393,45 +353,4 @@ fn range_of(
         }
     }
     (enter < leave).then_some((enter, leave))
-}
-
-fn made(count: usize) -> (Vec<TileFeature>, Vec<Street>) {
-    let city = generated_city(CityLayout::Streets, count, 1);
-    let features = city
-        .features()
-        .zip(0..)
-        .map(|(feature, id)| TileFeature {
-            id,
-            envelope: feature.envelope,
-            outline: outline(feature.mesh.vertices.iter().copied()),
-            roof: Roof::of(&feature.mesh, &feature.envelope),
-            columns: vec![feature.column],
-        })
-        .collect();
-    (features, city.streets().collect())
-}
-
-fn outline(points: impl Iterator<Item = DVec3>) -> Vec<DVec2> {
-    OuterPrism::around(points).map_or(Vec::new(), |prism| prism.hull)
-}
-
-fn read(file: &str) -> (Vec<TileFeature>, Vec<Street>) {
-    let bytes = std::fs::read(file).expect("a readable file");
-    let scene = read_bytes(file, &bytes, &ReadOptions::default()).expect("a city model");
-    let houses: Vec<House> = scene.features.iter().map(House::of).collect();
-    let envelopes: Vec<Box3d> = houses.iter().map(|house| house.envelope()).collect();
-    let ground = LocalGround::new(&envelopes);
-    let sites: Vec<Site> = houses.iter().map(House::site).collect();
-    let feature = |(house, id): (&House, i64)| TileFeature {
-        id,
-        envelope: house.envelope(),
-        outline: outline(house.points.iter().copied()),
-        roof: Roof::of(&house.mesh, &house.envelope()),
-        columns: columns(
-            house,
-            ground.holds(&house.envelope(), house.envelope().min.z),
-        ),
-    };
-    let features = houses.iter().zip(0..).map(feature).collect();
-    (features, open_space(&sites, &ViewRegionOptions::default()))
 }

@@ -26,6 +26,7 @@ mod solid;
 mod solid_column;
 mod statistics;
 mod umbra;
+mod view_cells;
 mod view_region;
 mod volumes;
 
@@ -57,8 +58,11 @@ pub use solid::{Hides, Repair, Solid};
 pub use solid_column::SolidColumn;
 pub use statistics::BoxStatistics;
 pub use umbra::{OCCLUDER_MARGIN, Occluder, ShadowCaster};
+pub use view_cells::{
+    CellQuery, CellScene, CellSolver, CellTile, CoverOptions, EROSION_MARGIN, ViewCell,
+};
 pub use view_region::{
-    LocalGround, Site, Street, ViewRegionOptions, covers_ground, footprint, is_building,
-    open_space, streets_from_surfaces, without_footprints,
+    LocalGround, Site, Street, ViewRegion, ViewRegionOptions, covers_ground, footprint,
+    is_building, open_space, streets_from_surfaces, without_footprints,
 };
 pub use volumes::{Block, OcclusionVolume, VolumeOptions, VolumeSolver};

@@ -8,6 +8,9 @@ pub static MAX_THREADS: GucSetting<i32> = GucSetting::<i32>::new(0);
 /// Memory for the tiles that a backend keeps, kB.
 static CACHE_SIZE: GucSetting<i32> = GucSetting::<i32>::new(64 * 1024);
 
+/// Memory for what generate_view_cells keeps from one square to the next, kB.
+static GENERATE_MEMORY: GucSetting<i32> = GucSetting::<i32>::new(256 * 1024);
+
 /// Whether answers leave out what occlusion volumes hide, besides what live ones do.
 static USE_VOLUMES: GucSetting<bool> = GucSetting::<bool>::new(true);
 
@@ -36,6 +39,16 @@ pub fn register() {
         GucContext::Userset,
         GucFlags::UNIT_KB,
     );
+    GucRegistry::define_int_guc(
+        c"pg_occlusion.generate_memory",
+        c"Memory for what generate_view_cells keeps from one square of a scene to the next.",
+        c"What is in range of one square is kept in any case while it is computed.",
+        &GENERATE_MEMORY,
+        0,
+        i32::MAX,
+        GucContext::Userset,
+        GucFlags::UNIT_KB,
+    );
     GucRegistry::define_bool_guc(
         c"pg_occlusion.use_volumes",
         c"Leaves out of answers what occlusion volumes hide, besides what is found live.",
@@ -54,4 +67,9 @@ pub fn uses_volumes() -> bool {
 /// Bytes of the tiles that a backend keeps.
 pub fn cache_bytes() -> usize {
     usize::try_from(CACHE_SIZE.get()).unwrap_or(0) * 1024
+}
+
+/// Bytes of what generate_view_cells keeps from one square to the next.
+pub fn generate_bytes() -> usize {
+    usize::try_from(GENERATE_MEMORY.get()).unwrap_or(0) * 1024
 }

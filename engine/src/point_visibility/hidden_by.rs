@@ -5,13 +5,13 @@ use std::ops::{ControlFlow, Range};
 
 use glam::{DVec2, DVec3};
 
-use super::horizon::{Horizon, SUMMIT};
+use super::EYE_MARGIN;
+use super::horizon::Horizon;
 use super::occluder::{Measure, Wall};
-use super::projection::{SIDES, Side, Span};
+use super::projection::Span;
 use super::solver::{PointQuery, PointSolver, TileSource, Walker, depth, is_shallow, plan_corners};
 use super::target::{edge_slopes, outline_slopes};
 use super::tile::Tile;
-use super::{EYE_MARGIN, PLACE_MARGIN};
 use crate::{Box3d, OuterPrism, Roof};
 
 /// A feature of which one asks what hides it.
@@ -120,26 +120,7 @@ fn lines(eye: DVec3, target: &PointTarget<'_>) -> Option<Vec<Span>> {
 /// Raises a horizon to the lines of a target, and beside them above all: what is below it cannot take
 /// part in hiding the target.
 fn shut(horizon: &mut Horizon, lines: &[Span]) {
-    for side in (0..SIDES).map(Side) {
-        let mut ends: Vec<(f64, f64)> = lines
-            .iter()
-            .filter(|line| line.side == side)
-            .map(|line| (line.from - PLACE_MARGIN, line.to + PLACE_MARGIN))
-            .collect();
-        ends.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        ends.push((1.0, 1.0));
-        let mut done = -1.0_f64;
-        for (from, to) in ends {
-            horizon.raise(&Span {
-                side,
-                from: done,
-                to: from.min(1.0),
-                at_zero: SUMMIT,
-                rise: 0.0,
-            });
-            done = done.max(to);
-        }
-    }
+    horizon.shut_beside(lines);
     for line in lines {
         horizon.raise(line);
     }

@@ -224,6 +224,30 @@ impl Horizon {
         }
     }
 
+    /// Hides all in the directions beside some lines.
+    pub fn shut_beside(&mut self, lines: &[Span]) {
+        for side in (0..SIDES).map(Side) {
+            let mut ends: Vec<(f64, f64)> = lines
+                .iter()
+                .filter(|line| line.side == side)
+                .map(|line| (line.from - PLACE_MARGIN, line.to + PLACE_MARGIN))
+                .collect();
+            ends.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+            ends.push((1.0, 1.0));
+            let mut done = -1.0_f64;
+            for (from, to) in ends {
+                self.raise(&Span {
+                    side,
+                    from: done,
+                    to: from.min(1.0),
+                    at_zero: SUMMIT,
+                    rise: 0.0,
+                });
+                done = done.max(to);
+            }
+        }
+    }
+
     /// Adds what hides all below it.
     pub fn raise(&mut self, piece: &Span) {
         for (at, part) in parts(piece) {

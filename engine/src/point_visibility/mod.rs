@@ -13,6 +13,7 @@ mod isovist;
 mod neighbourhoods;
 mod occluder;
 mod projection;
+mod sift;
 mod solver;
 mod target;
 mod tile;
@@ -22,6 +23,7 @@ pub use bytes::MalformedTile;
 pub use extent::{AzimuthRange, Extents};
 pub use hidden_by::{Hider, PointTarget, TargetShape};
 pub use neighbourhoods::neighbourhoods;
+pub(crate) use sift::{Known, Sifting, Spot};
 pub use solver::{PointQuery, PointSolver, Sighting, TileSource, visible_from_point};
 pub use tile::{Tile, TileFeature};
 

@@ -292,7 +292,7 @@ pub fn parts(span: &Span, mut found: impl FnMut(&Span, f64, bool, bool)) {
 }
 
 /// Whether a column or its margin holds the eye.
-fn holds(tile: &Tile, column: &Column, eye: DVec3) -> bool {
+pub fn holds(tile: &Tile, column: &Column, eye: DVec3) -> bool {
     if eye.z > column.top + EYE_MARGIN {
         return false;
     }

@@ -134,21 +134,45 @@ impl PointSolver {
     ) -> Result<(), S::Error> {
         for (tile, bounds) in source.bounds().iter().enumerate() {
             if walker.wants(query, bounds) {
-                self.open(query.eye, tile, None, bounds);
+                self.open(query.eye, tile, What::Tile, bounds);
             }
         }
+        self.visit(query, source, walker)
+    }
+
+    /// Visits what is open, and what is found there, front to back.
+    ///
+    /// # Errors
+    /// Those of the source.
+    pub(super) fn visit<S: TileSource>(
+        &mut self,
+        query: &PointQuery,
+        source: &mut S,
+        walker: &mut impl Walker,
+    ) -> Result<(), S::Error> {
         while let Some(ByDepth { depth, item: visit }) = self.open.pop() {
             walker.advance(self, depth);
-            let Some(at) = visit.node else {
-                if !walker.skips(self, query.eye, &source.bounds()[visit.tile]) {
-                    let root = source.tile(visit.tile)?.tree.nodes.first().copied();
-                    if let Some(root) = root
-                        && walker.wants(query, &root.bounds)
-                    {
-                        self.open(query.eye, visit.tile, Some(0), &root.bounds);
+            let at = match visit.what {
+                What::Tile => {
+                    if !walker.skips(self, query.eye, &source.bounds()[visit.tile]) {
+                        let root = source.tile(visit.tile)?.tree.nodes.first().copied();
+                        if let Some(root) = root
+                            && walker.wants(query, &root.bounds)
+                        {
+                            self.open(query.eye, visit.tile, What::Node(0), &root.bounds);
+                        }
                     }
+                    continue;
                 }
-                continue;
+                What::Node(at) => at,
+                What::Feature(position) => {
+                    let tile = source.tile(visit.tile)?;
+                    let envelope = &tile.features[position].envelope;
+                    if !walker.skips(self, query.eye, envelope) {
+                        walker.meet(self, query, visit.tile, tile, position);
+                    }
+                    continue;
+                }
             };
             let tile = source.tile(visit.tile)?;
             let node = &tile.tree.nodes[at as usize];
@@ -158,7 +182,7 @@ impl PointSolver {
             for child in node.first..node.first + node.count {
                 let bounds = &tile.tree.nodes[child as usize].bounds;
                 if walker.wants(query, bounds) {
-                    self.open(query.eye, visit.tile, Some(child), bounds);
+                    self.open(query.eye, visit.tile, What::Node(child), bounds);
                 }
             }
             if node.count == 0 {
@@ -183,10 +207,10 @@ impl PointSolver {
     }
 
     /// Puts a box among those to visit.
-    fn open(&mut self, eye: DVec3, tile: usize, node: Option<u32>, bounds: &Box3d) {
+    pub(super) fn open(&mut self, eye: DVec3, tile: usize, what: What, bounds: &Box3d) {
         self.open.push(ByDepth {
             depth: depth(eye, bounds),
-            item: Visit { tile, node },
+            item: Visit { tile, what },
         });
     }
 
@@ -400,8 +424,18 @@ impl Walker for Finder<'_> {
 #[derive(Clone, Copy, Debug)]
 struct Visit {
     tile: usize,
-    /// None for the tile itself.
-    node: Option<u32>,
+    what: What,
+}
+
+/// What of a tile.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum What {
+    /// All of it, while only its box is known.
+    Tile,
+    /// A node of its tree.
+    Node(u32),
+    /// A feature, whatever node holds it.
+    Feature(usize),
 }
 
 /// Something in a heap that has the least depth on top.

@@ -3,9 +3,11 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use geo::{Distance, Euclidean, LineString};
+use geo::{BoundingRect, Coord, Distance, Euclidean, LineString, Polygon};
 use glam::{DVec2, DVec3};
 
+use super::EYE_MARGIN;
+use super::occluder::holds;
 use super::tree::Tree;
 use crate::{Box3d, OuterPrism, Roof, SolidColumn};
 
@@ -111,6 +113,79 @@ impl Tile {
     pub fn feature(&self, position: usize) -> (i64, Box3d) {
         let feature = &self.features[position];
         (feature.id, feature.envelope)
+    }
+
+    /// Whether a column or its margin holds an eye: it hides nothing from there.
+    pub(crate) fn holds(&self, eye: DVec3) -> bool {
+        let plan = |bounds: &Box3d| {
+            let nearest = eye.clamp(bounds.min, bounds.max) - eye;
+            nearest.truncate().abs().max_element() <= EYE_MARGIN
+        };
+        let mut open: Vec<u32> = if self.is_empty() { Vec::new() } else { vec![0] };
+        while let Some(at) = open.pop() {
+            let node = &self.tree.nodes[at as usize];
+            if !plan(&node.bounds) {
+                continue;
+            }
+            open.extend(node.first..node.first + node.count);
+            if node.count == 0 {
+                let feature = &self.features[node.first as usize];
+                let mut columns = self.columns[positions(&feature.columns)].iter();
+                if columns.any(|column| holds(self, column, eye)) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// How many corners rings and outlines have.
+    pub(crate) fn corner_count(&self) -> usize {
+        self.corners.len()
+    }
+
+    /// The outer envelopes of its features, and the columns of each.
+    pub(crate) fn solids(&self) -> impl Iterator<Item = (Box3d, Vec<SolidColumn>)> {
+        self.features.iter().map(|feature| {
+            let columns = self.columns[positions(&feature.columns)].iter();
+            let columns = columns.map(|column| self.solid_column(column, &feature.envelope));
+            (feature.envelope, columns.collect())
+        })
+    }
+
+    /// A tile of what hides alone: features without numbers that are seen nowhere.
+    pub(crate) fn of_columns(columns: Vec<SolidColumn>) -> Self {
+        let feature = |column: SolidColumn| {
+            Some(TileFeature {
+                id: 0,
+                envelope: around(&column)?,
+                outline: Vec::new(),
+                roof: None,
+                columns: vec![column],
+            })
+        };
+        let features: Vec<TileFeature> = columns.into_iter().filter_map(feature).collect();
+        Self::new(&features)
+    }
+
+    /// A column as it was given, but for how far down it goes if it is grounded.
+    fn solid_column(&self, column: &Column, envelope: &Box3d) -> SolidColumn {
+        let mut rings = self.rings[positions(&column.rings)].iter().map(|ring| {
+            let corners = self.corners[positions(ring)].iter();
+            corners.map(|corner| (corner.x, corner.y)).collect()
+        });
+        let outer = rings.next().unwrap_or_else(|| LineString::new(Vec::new()));
+        let grounded = column.bottom == f64::NEG_INFINITY;
+        SolidColumn {
+            footprint: Polygon::new(outer, rings.collect()),
+            bottom: if grounded {
+                envelope.min.z
+            } else {
+                column.bottom
+            },
+            top: column.top,
+            grounded,
+        }
     }
 
     fn add(&mut self, feature: &TileFeature) {
@@ -261,6 +336,16 @@ fn lies_within(column: &SolidColumn, envelope: &Box3d) -> bool {
             (envelope.min.x..=envelope.max.x).contains(&c.x)
                 && (envelope.min.y..=envelope.max.y).contains(&c.y)
         })
+}
+
+/// The box around a column.
+fn around(column: &SolidColumn) -> Option<Box3d> {
+    let plan = column.footprint.bounding_rect()?;
+    let corner = |corner: Coord, z: f64| DVec3::new(corner.x, corner.y, z);
+    Some(Box3d::new(
+        corner(plan.min(), column.bottom),
+        corner(plan.max(), column.top),
+    ))
 }
 
 /// A position as it is stored.

@@ -1,6 +1,7 @@
 //! [`Job`], how far long work on a scene is, for others to see.
 
-use super::{count, quoted, run};
+use super::{count, failed, quoted, run};
+use pgrx::Spi;
 
 /// One row of the table `job`.
 pub struct Job {
@@ -44,6 +45,29 @@ impl Job {
             ),
             &[self.task.into(), count(done).into(), made.into()],
         );
+    }
+
+    /// Tells that one more of what several sessions share is done, and how many rows it made; returns how
+    /// many are done, and how many there are in all.
+    pub fn add(&self, made: usize) -> (i64, i64) {
+        let statement = format!(
+            "UPDATE {}.job SET done = done OPERATOR(pg_catalog.+) 1, \
+                    made = made OPERATOR(pg_catalog.+) $2, \
+                    backend = pg_catalog.pg_backend_pid(), updated = pg_catalog.clock_timestamp() \
+             WHERE task OPERATOR(pg_catalog.=) $1 RETURNING done, total",
+            self.scene
+        );
+        let counts = Spi::connect_mut(|client| {
+            let row = client
+                .update(&statement, None, &[self.task.into(), count(made).into()])?
+                .first();
+            match row.is_empty() {
+                true => Ok((None, None)),
+                false => Ok::<_, pgrx::spi::Error>((row.get::<i64>(1)?, row.get::<i64>(2)?)),
+            }
+        });
+        let (done, total) = counts.unwrap_or_else(|error| failed(&error));
+        (done.unwrap_or(0), total.unwrap_or(0))
     }
 
     /// Tells that it came to its end.

@@ -9,6 +9,7 @@ mod procedure;
 mod snapshot;
 mod solids;
 mod streets;
+mod view_cells;
 mod view_region;
 mod workers;
 

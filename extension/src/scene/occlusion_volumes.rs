@@ -36,14 +36,7 @@ fn generate_occlusion_volumes(
     let targets = &snapshot.targets;
     let streets = streets::read(scene);
     if streets.is_empty() && !targets.is_empty() {
-        Refusal::new(
-            PgSqlErrorCode::ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE,
-            format!("scene \"{scene}\" has no streets"),
-        )
-        .hint(format!(
-            "Make some from the open space with SELECT occlusion.generate_view_region('{scene}')."
-        ))
-        .raise();
+        streets::refuse_none(scene);
     }
     notice!(
         "{} features, {} of them solid, seen from {} streets",

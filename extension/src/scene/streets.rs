@@ -2,18 +2,50 @@
 
 use super::{failed, polygon, quoted};
 use crate::error::Refusal;
+use crate::types::Box3d;
 use engine::Street;
+use pgrx::datum::DatumWithOid;
 use pgrx::{PgSqlErrorCode, Spi};
 
 /// All streets of a scene.
 pub fn read(scene: &str) -> Vec<Street> {
+    read_where(scene, "true", &[])
+}
+
+/// The streets of a scene that meet a box in plan, as they are now.
+pub fn near(scene: &str, area: &engine::Box3d) -> Vec<Street> {
+    let upright = Box3d(engine::Box3d {
+        min: area.min.with_z(f64::MIN),
+        max: area.max.with_z(f64::MAX),
+    });
+    read_where(
+        scene,
+        "envelope OPERATOR(occlusion.&&) $1",
+        &[upright.into()],
+    )
+}
+
+/// Raises the error that a scene has none.
+pub fn refuse_none(scene: &str) -> ! {
+    Refusal::new(
+        PgSqlErrorCode::ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE,
+        format!("scene \"{scene}\" has no streets"),
+    )
+    .hint(format!(
+        "Make some from the open space with SELECT occlusion.generate_view_region('{scene}')."
+    ))
+    .raise()
+}
+
+fn read_where(scene: &str, condition: &str, arguments: &[DatumWithOid]) -> Vec<Street> {
     let query = format!(
-        "SELECT area::pg_catalog.text[], eye_low, eye_high FROM {}.street",
+        "SELECT area::pg_catalog.text[], eye_low, eye_high FROM {}.street WHERE {condition}",
         quoted(scene)
     );
-    let rows = Spi::connect(|client| {
+    // What is only read is seen as it was when the statement around began.
+    let rows = Spi::connect_mut(|client| {
         client
-            .select(&query, None, &[])?
+            .update(&query, None, arguments)?
             .map(|row| {
                 Ok((
                     row.get::<Vec<Option<String>>>(1)?.unwrap_or_default(),

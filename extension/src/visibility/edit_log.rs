@@ -1,5 +1,6 @@
-//! `log_edit`, the trigger that writes which features were edited, and where, to the table `edit` of
-//! their scene. What is in the log counts as the tables have it, not as the packed tiles do.
+//! `log_edit`, the trigger that writes which features were edited, and where, to the tables `edit` and
+//! `change` of their scene. What is in `edit` counts as the tables have it, not as the packed tiles do; near
+//! what is in `change`, view cells count that were computed under a snapshot that shows it.
 //!
 //! A row is logged before it changes, and after if it became different from what was announced: at no
 //! moment is there a change that is not in the log. A change of what hides in a feature is logged with
@@ -61,11 +62,14 @@ impl Event {
     }
 
     fn log(&self) {
-        let Some(log) = Log::of(self.relation()) else {
-            return;
-        };
+        for log in Log::of(self.relation(), self.is_of(c"street")) {
+            self.write(&log);
+        }
+    }
+
+    fn write(&self, log: &Log) {
         if self.operation == pg_sys::TRIGGER_EVENT_TRUNCATE {
-            log.drop_tiles();
+            log.drop_derived();
             return;
         }
         // SAFETY: a row trigger has the row, and an update the new one.
@@ -74,13 +78,17 @@ impl Event {
             pg_sys::TRIGGER_EVENT_UPDATE => [Some(row), Some(new)],
             _ => [Some(row), None],
         };
-        if self.is_of_feature() {
+        let rows = rows.into_iter().flatten();
+        if self.is_of(c"street") {
+            let places = rows.filter_map(|row| self.value::<Box3d>(row, c"envelope"));
+            places.for_each(|place| log.add_street(&place));
+        } else if self.is_of(c"feature") {
             if self.operation == pg_sys::TRIGGER_EVENT_UPDATE && self.keeps_feature(row, new) {
                 return;
             }
             // Before the fact it is not known whether it comes to be.
             let is_all_ours = self.is_after() && self.operation != pg_sys::TRIGGER_EVENT_UPDATE;
-            for row in rows.into_iter().flatten() {
+            for row in rows {
                 let id: Option<i64> = self.value(row, c"id");
                 let place = self.value::<Box3d>(row, c"envelope");
                 if let Some((id, place)) = id.zip(place) {
@@ -88,7 +96,7 @@ impl Event {
                 }
             }
         } else {
-            for row in rows.into_iter().flatten() {
+            for row in rows {
                 if let Some(id) = self.value(row, c"feature") {
                     log.add_anywhere(id);
                 }
@@ -119,12 +127,12 @@ impl Event {
         unsafe { (*self.data).tg_relation }
     }
 
-    /// Whether the table is `feature`, not one of what hides.
-    fn is_of_feature(&self) -> bool {
+    /// Whether the table is the one of this name.
+    fn is_of(&self, table: &CStr) -> bool {
         // SAFETY: the relation is open while its trigger runs; its name ends with a zero.
         unsafe {
             let name = &(*(*self.relation()).rd_rel).relname;
-            CStr::from_ptr(name.data.as_ptr()) == c"feature"
+            CStr::from_ptr(name.data.as_ptr()) == table
         }
     }
 
@@ -177,35 +185,60 @@ impl Event {
     }
 }
 
-/// The log of a scene whose tiles are packed.
+/// A log of a scene.
 struct Log {
     scene: String,
-    edit: Oid,
+    kind: Kind,
+    table: Oid,
+}
+
+/// For whom edits are logged.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+enum Kind {
+    /// For tiles, in `edit`.
+    Tiles,
+    /// For view cells, in `change`.
+    Cells,
+}
+
+impl Kind {
+    /// The log, and a table without which nobody reads it: where it never had a row.
+    fn tables(self) -> [&'static CStr; 2] {
+        match self {
+            Self::Tiles => [c"edit", c"tile"],
+            Self::Cells => [c"change", c"view_cell_block"],
+        }
+    }
 }
 
 impl Log {
-    /// That of the scene of a table; `None` where no tiles were ever packed, and in a schema that is no
-    /// scene, where a part of a scene's table may be: tiles are not relied on then.
-    fn of(table: pg_sys::Relation) -> Option<Self> {
+    /// Those of the scene of a table; none where no tiles were ever packed and no cells computed, and in a
+    /// schema that is no scene, where a part of a scene's table may be: what is derived is not relied on
+    /// then.
+    fn of(table: pg_sys::Relation, is_street: bool) -> impl Iterator<Item = Self> {
         // SAFETY: the relation is open while its trigger runs.
         let namespace = unsafe { (*(*table).rd_rel).relnamespace };
-        let (tile, edit) = (relation(namespace, c"tile"), relation(namespace, c"edit"));
-        let is_scene = tile != pg_sys::InvalidOid && edit != pg_sys::InvalidOid;
-        if !is_scene || !has_pages(tile) {
-            return None;
-        }
-        // SAFETY: the schema of an open relation has a name.
-        let scene = unsafe { CStr::from_ptr(pg_sys::get_namespace_name(namespace)) };
-        Some(Self {
-            scene: scene.to_string_lossy().into_owned(),
-            edit,
+        let kinds = [Kind::Tiles, Kind::Cells].into_iter();
+        kinds.filter_map(move |kind| {
+            let [log, derived] = kind.tables().map(|name| relation(namespace, name));
+            let is_scene = log != pg_sys::InvalidOid && derived != pg_sys::InvalidOid;
+            if !is_scene || (kind == Kind::Tiles && is_street) || !has_pages(derived) {
+                return None;
+            }
+            // SAFETY: the schema of an open relation has a name.
+            let scene = unsafe { CStr::from_ptr(pg_sys::get_namespace_name(namespace)) };
+            Some(Self {
+                scene: scene.to_string_lossy().into_owned(),
+                kind,
+                table: log,
+            })
         })
     }
 
     /// That a feature was, or is, in a place. `is_all_ours`: it was made or deleted, and what hides in
     /// it is no longer, or not yet, anybody else's.
     fn add_place(&self, feature: i64, place: &Box3d, is_all_ours: bool) {
-        if !remember(self.edit, feature, Some(bits(*place)), is_all_ours) {
+        if !remember(self.table, feature, Some(bits(*place)), is_all_ours) {
             let arguments = [feature.into_datum(), place.into_datum()];
             self.write(Write::Place, &arguments);
         }
@@ -213,13 +246,18 @@ impl Log {
 
     /// That what hides in a feature was changed, wherever it is.
     fn add_anywhere(&self, feature: i64) {
-        if !remember(self.edit, feature, None, false) {
+        if !remember(self.table, feature, None, false) {
             self.write(Write::Anywhere, &[feature.into_datum()]);
         }
     }
 
+    /// That a street was, or is, in a place.
+    fn add_street(&self, place: &Box3d) {
+        self.write(Write::Street, &[place.into_datum()]);
+    }
+
     /// That all may have gone.
-    fn drop_tiles(&self) {
+    fn drop_derived(&self) {
         self.write(Write::Truncate, &[]);
         forget();
     }
@@ -227,8 +265,8 @@ impl Log {
     /// Writes as the log's owner, so that nobody who may edit can do so without a trace.
     fn write(&self, write: Write, arguments: &[Option<Datum>]) {
         let arguments: Vec<Datum> = arguments.iter().copied().flatten().collect();
-        as_owner_of(self.edit, || {
-            with_statement(&self.scene, self.edit, write, |statement| {
+        as_owner_of(self.table, || {
+            with_statement(self, write, |statement| {
                 statement.read(Moment::Now, &arguments, |_| {});
             });
         });
@@ -239,22 +277,37 @@ impl Log {
 enum Write {
     Place,
     Anywhere,
+    Street,
     Truncate,
 }
 
 impl Write {
-    fn statement(self, scene: &str) -> Statement {
+    fn statement(self, scene: &str, kind: Kind) -> Statement {
         let scene = quoted(scene);
+        let log = match kind {
+            Kind::Tiles => format!("{scene}.edit"),
+            Kind::Cells => format!("{scene}.change"),
+        };
         match self {
             Self::Place => Statement::new(
-                &format!("INSERT INTO {scene}.edit (feature, place) VALUES ($1, $2)"),
+                &format!("INSERT INTO {log} (feature, place) VALUES ($1, $2)"),
                 &[pg_sys::INT8OID, Box3d::type_oid()],
             ),
             Self::Anywhere => Statement::new(
-                &format!("INSERT INTO {scene}.edit (feature) VALUES ($1)"),
+                &format!("INSERT INTO {log} (feature) VALUES ($1)"),
                 &[pg_sys::INT8OID],
             ),
-            Self::Truncate => Statement::new(&format!("TRUNCATE {scene}.tile, {scene}.edit"), &[]),
+            Self::Street => Statement::new(
+                &format!("INSERT INTO {log} (place) VALUES ($1)"),
+                &[Box3d::type_oid()],
+            ),
+            Self::Truncate => {
+                let derived = match kind {
+                    Kind::Tiles => format!("{scene}.tile"),
+                    Kind::Cells => format!("{scene}.view_cell, {scene}.view_cell_block"),
+                };
+                Statement::new(&format!("TRUNCATE {derived}, {log}"), &[])
+            }
         }
     }
 }
@@ -268,11 +321,11 @@ thread_local! {
     static IS_TOLD: Cell<bool> = const { Cell::new(false) };
 }
 
-fn with_statement(scene: &str, edit: Oid, write: Write, run: impl FnOnce(&Statement)) {
-    let key = (scene.to_owned(), edit, write);
+fn with_statement(log: &Log, write: Write, run: impl FnOnce(&Statement)) {
+    let key = (log.scene.clone(), log.table, write);
     // Taken out while it runs: a trigger on the log may edit, too.
     let kept = STATEMENTS.with_borrow_mut(|statements| statements.remove(&key));
-    let statement = kept.unwrap_or_else(|| write.statement(scene));
+    let statement = kept.unwrap_or_else(|| write.statement(&log.scene, log.kind));
     run(&statement);
     let old = STATEMENTS.with_borrow_mut(|statements| statements.insert(key, statement));
     old.into_iter().for_each(Statement::free);

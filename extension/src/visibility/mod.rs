@@ -10,10 +10,13 @@ mod pack;
 mod packed_tile;
 mod statements;
 mod stored_mesh;
+mod surroundings;
 mod tables;
 mod tiles;
+mod view_cells;
 
 pub use pack::pack_if_possible;
+pub use surroundings::Surroundings;
 
 use crate::field_of_view::FieldOfView;
 use crate::types::{Box3d, Frustum, Point3d, ViewCone, ViewSector};

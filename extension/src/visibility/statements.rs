@@ -51,10 +51,14 @@ pub enum Ask {
     Meshes,
     /// Feature and box of all inner envelopes of some features.
     AllInnerEnvelopes,
+    /// Visible set, box and range of the view cell of an eye, in a cluster.
+    ViewCell,
+    /// Id and slot of some features.
+    Slots,
 }
 
 impl Ask {
-    const COUNT: usize = Self::AllInnerEnvelopes as usize + 1;
+    const COUNT: usize = Self::Slots as usize + 1;
 
     /// The statement for a scene. Columns are cast to the types that they are read as.
     fn text(self, name: &str) -> String {
@@ -103,7 +107,12 @@ impl Ask {
                  FROM pg_catalog.unnest($1) AS near (feature) LEFT JOIN {scene}.mesh AS m \
                    ON m.feature OPERATOR(pg_catalog.=) near.feature"
             ),
-            Self::Hidden => hidden_statement(name),
+            Self::Slots => format!(
+                "SELECT id::pg_catalog.int8, slot::pg_catalog.int4 FROM {scene}.feature \
+                 WHERE id OPERATOR(pg_catalog.=) ANY ($1)"
+            ),
+            Self::Hidden => written("hidden_features_statement", name),
+            Self::ViewCell => written("view_cell_statement", name),
         }
     }
 
@@ -115,10 +124,12 @@ impl Ask {
             | Self::Columns
             | Self::InnerEnvelopes
             | Self::Meshes
+            | Self::Slots
             | Self::AllInnerEnvelopes => vec![pg_sys::INT8ARRAYOID],
             Self::EnvelopesNear => vec![Box3d::type_oid(), pg_sys::INT8ARRAYOID],
             Self::Tiles | Self::Edits | Self::FeaturesNear => vec![Box3d::type_oid()],
             Self::Hidden => vec![crate::types::Point3d::type_oid()],
+            Self::ViewCell => vec![crate::types::Point3d::type_oid(), pg_sys::INT8OID],
         }
     }
 }
@@ -165,12 +176,10 @@ impl Statements {
     }
 }
 
-/// What `sql/70_queries.sql` has for it.
-fn hidden_statement(scene: &str) -> String {
-    let text = pgrx::Spi::get_one_with_args::<String>(
-        "SELECT occlusion.hidden_features_statement($1)",
-        &[scene.into()],
-    );
+/// What a function of `sql/` has for a scene.
+fn written(function: &str, scene: &str) -> String {
+    let query = format!("SELECT occlusion.{function}($1)");
+    let text = pgrx::Spi::get_one_with_args::<String>(&query, &[scene.into()]);
     let text = text.unwrap_or_else(|error| failed(&error));
     text.unwrap_or_else(|| unreachable!("the statement of a scene is text"))
 }

@@ -60,8 +60,8 @@ const READ: [(&CStr, Columns); 6] = [
     ),
 ];
 
-/// Those of packed tiles, which a scene made by an older version lacks.
-const DERIVED: [(&CStr, Columns); 2] = [
+/// Those of packed tiles and view cells, which a scene made by an older version lacks.
+const DERIVED: [(&CStr, Columns); 4] = [
     (
         c"tile",
         &[
@@ -75,6 +75,23 @@ const DERIVED: [(&CStr, Columns); 2] = [
         c"edit",
         &[(c"feature", Some(pg_sys::INT8OID)), (c"place", None)],
     ),
+    (
+        c"view_cell",
+        &[
+            (c"box", None),
+            (c"range", Some(pg_sys::FLOAT8OID)),
+            (c"snapshot", Some(pg_sys::PG_SNAPSHOTOID)),
+            (c"cluster", Some(pg_sys::INT8OID)),
+        ],
+    ),
+    (
+        c"change",
+        &[
+            (c"feature", Some(pg_sys::INT8OID)),
+            (c"place", None),
+            (c"transaction", Some(pg_sys::XID8OID)),
+        ],
+    ),
 ];
 
 /// What tiles are made of, so that triggers on them write the log of edits.
@@ -86,6 +103,8 @@ pub struct Tables {
     namespace: Oid,
     tile: Oid,
     edit: Oid,
+    view_cell: Oid,
+    change: Oid,
 }
 
 impl Tables {
@@ -123,6 +142,8 @@ impl Tables {
             namespace,
             tile: derived[0]?,
             edit: derived[1]?,
+            view_cell: derived[2]?,
+            change: derived[3]?,
         })
     }
 
@@ -134,6 +155,25 @@ impl Tables {
     /// Whether the scene has the tables of tiles and edits at all.
     pub fn can_have_tiles(&self) -> bool {
         self.tile != pg_sys::InvalidOid && self.edit != pg_sys::InvalidOid
+    }
+
+    /// Whether the scene has the tables of view cells at all.
+    pub fn can_have_cells(&self) -> bool {
+        self.view_cell != pg_sys::InvalidOid && self.change != pg_sys::InvalidOid
+    }
+
+    /// Whether there may be view cells that may be relied on: every change is logged, and no row security
+    /// keeps features, cells or changes from the current user.
+    pub fn has_cells(&self) -> bool {
+        let street = relation(self.namespace, c"street");
+        let feature = relation(self.namespace, c"feature");
+        self.can_have_cells()
+            && has_pages(self.view_cell)
+            && self.are_watched()
+            && opened(street, is_watched)
+            && [feature, street, self.view_cell, self.change]
+                .into_iter()
+                .all(sees_all_rows)
     }
 
     /// Whether every edit is written to the log.

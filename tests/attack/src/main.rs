@@ -1,6 +1,8 @@
-//! Attacks the point solver with random scenes: nothing that it leaves out may be seen.
+//! Attacks the solvers from a point and from view cells with random scenes: nothing that they leave out
+//! may be seen.
 #![forbid(unsafe_code)]
 
+mod cells;
 #[cfg(test)]
 mod directions;
 mod finding;
@@ -21,10 +23,11 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 use clap::Parser;
-use engine::PointSolver;
+use engine::{CellSolver, PointSolver};
 use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
+use cells::{CELLS, CellTrial};
 use roofs::RoofTrial;
 use trial::{Counts, QUERIES, Trial};
 
@@ -37,11 +40,12 @@ const PRINTED: usize = 5;
 const EXAMPLES: &str = "Examples:
   attack                                the 250,000 queries of the test suite
   attack --queries 10000000 --seed 7    a long run over other scenes
+  attack --cells 6000                   view cells instead of single eyes
   attack --scene 1234                   one scene of seed 1 again";
 
-/// Asks the point solver what can be seen in random scenes, and judges exactly all that it leaves out
+/// Asks what can be seen in random scenes, and judges exactly all that is left out
 ///
-/// A query is an answer for one eye, range and kind of test. The exit status is 1 if something left
+/// A query is an answer for one eye, range and kind of test, or for one view cell and range. The exit status is 1 if something left
 /// out can be seen, or if too little was left out for the attack to mean anything.
 #[derive(Parser, Debug)]
 #[command(name = "attack", after_help = EXAMPLES)]
@@ -49,6 +53,9 @@ struct Arguments {
     /// How many queries to ask
     #[arg(long, value_name = "N", default_value_t = 250_000)]
     queries: u64,
+    /// Solve so many view cells instead, and judge each from several eyes in it
+    #[arg(long, value_name = "N", conflicts_with = "queries")]
+    cells: Option<u64>,
     /// Which scenes to make
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -84,9 +91,13 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> (Counts, Vec<String>) {
+    let (wanted, of_a_scene) = match arguments.cells {
+        Some(cells) => (cells, CELLS),
+        None => (arguments.queries, QUERIES),
+    };
     let scenes = match arguments.scene {
         Some(scene) => scene..scene + 1,
-        None => 0..arguments.queries.div_ceil(QUERIES),
+        None => 0..wanted.div_ceil(of_a_scene),
     };
     let total = Mutex::new((Counts::default(), Vec::new()));
     let bar = ProgressBar::new(scenes.end - scenes.start).with_style(
@@ -94,19 +105,19 @@ fn run(arguments: &Arguments) -> (Counts, Vec<String>) {
             .unwrap_or_else(|_| ProgressStyle::default_bar()),
     );
     scenes.into_par_iter().progress_with(bar).for_each_init(
-        PointSolver::default,
-        |solver, number| {
+        || (PointSolver::default(), CellSolver::default()),
+        |(points, cells), number| {
             if arguments.stop && !lock(&total).1.is_empty() {
                 return;
             }
             let wanted = match arguments.scene {
-                Some(_) => QUERIES,
-                None => arguments
-                    .queries
-                    .saturating_sub(number * QUERIES)
-                    .min(QUERIES),
+                Some(_) => of_a_scene,
+                None => wanted.saturating_sub(number * of_a_scene).min(of_a_scene),
             };
-            let (counts, findings) = run_scene(arguments.seed, number, solver, wanted);
+            let (counts, findings) = match arguments.cells {
+                Some(_) => run_cells(arguments.seed, number, cells, wanted),
+                None => run_scene(arguments.seed, number, points, wanted),
+            };
             let mut total = lock(&total);
             total.0 += counts;
             total.1.extend(findings);
@@ -134,6 +145,18 @@ fn run_scene(
     trial.run(solver, queries);
     let findings = trial.findings.iter().map(ToString::to_string);
     (trial.counts, findings.collect())
+}
+
+/// The cells of one scene; what was found as it is printed.
+fn run_cells(
+    seed: u64,
+    number: u64,
+    solver: &mut CellSolver,
+    wanted: u64,
+) -> (Counts, Vec<String>) {
+    let mut trial = CellTrial::new(seed, number);
+    trial.run(solver, wanted);
+    (trial.counts, trial.findings)
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {

@@ -15,14 +15,7 @@ pub struct Tiling {
 impl Tiling {
     /// Features in one tile or several; some may be in two.
     pub fn random(rng: &mut Rng, features: &[TileFeature]) -> Self {
-        let count = [1, 1, 2, 4, 9][rng.usize(..5)];
-        let mut parts = vec![Vec::new(); count];
-        for feature in features {
-            parts[rng.usize(..count)].push(feature.clone());
-            if count > 1 && rng.u8(..8) == 0 {
-                parts[rng.usize(..count)].push(feature.clone());
-            }
-        }
+        let parts = parts(rng, features, true);
         Self::of(&parts, if rng.bool() { 0.0 } else { 5.0 })
     }
 
@@ -64,6 +57,19 @@ impl Tiling {
         ids.dedup();
         ids
     }
+}
+
+/// Features in one part or several; some may be in two.
+pub fn parts(rng: &mut Rng, features: &[TileFeature], twice: bool) -> Vec<Vec<TileFeature>> {
+    let count = [1, 1, 2, 4, 9][rng.usize(..5)];
+    let mut parts = vec![Vec::new(); count];
+    for feature in features {
+        parts[rng.usize(..count)].push(feature.clone());
+        if twice && count > 1 && rng.u8(..8) == 0 {
+            parts[rng.usize(..count)].push(feature.clone());
+        }
+    }
+    parts
 }
 
 impl TileSource for Tiling {

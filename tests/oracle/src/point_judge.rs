@@ -84,6 +84,8 @@ pub struct PointJudge<'a> {
     heights: Vec<f64>,
     /// Which column met the last segment.
     last: usize,
+    /// Whether columns that touch are one solid, whatever features they are of.
+    joined: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -135,7 +137,29 @@ impl<'a> PointJudge<'a> {
             profile: SightProfile::default(),
             heights: Vec::new(),
             last: 0,
+            joined: false,
         }
+    }
+
+    /// The same judge, for whom no segment is a witness that runs in the common wall of two features that
+    /// touch: the union of all solids is taken for what hides, and the wall is inside it.
+    #[must_use]
+    pub fn joined(self) -> Self {
+        Self {
+            joined: true,
+            ..self
+        }
+    }
+
+    /// Whether the eye is outside of all columns and their margins.
+    #[must_use]
+    pub fn is_outside(&self) -> bool {
+        let all: usize = self
+            .features
+            .iter()
+            .map(|feature| feature.columns.len())
+            .sum();
+        self.columns.len() == all
     }
 
     /// Looks for a point that can be seen: corners, edges, faces and random points of the target; in
@@ -192,13 +216,15 @@ impl<'a> PointJudge<'a> {
         (x + y + z).cmp(&(rational(range) * rational(range))) != Ordering::Greater
     }
 
-    /// Whether a segment that meets no open column may still be inside a feature.
+    /// Whether a segment that meets no open column may still be inside a feature, or inside the union of
+    /// all where they are joined.
     fn lies_in_union(&self, feature: usize, point: Point) -> bool {
         let mut touched: Vec<usize> = self
             .columns
             .iter()
-            .filter(|(other, column)| *other != feature && column.touches_along(self.eye, point))
-            .map(|(other, _)| *other)
+            .filter(|(other, _)| self.joined || *other != feature)
+            .filter(|(_, column)| column.touches_along(self.eye, point))
+            .map(|(other, _)| if self.joined { 0 } else { *other })
             .collect();
         touched.sort_unstable();
         touched.windows(2).any(|pair| pair[0] == pair[1])

@@ -1,0 +1,82 @@
+//! [`ViewCell`], and how a part of the view region is covered with such.
+
+use super::scene::CellScene;
+use super::solver::{CellQuery, CellSolver, around, parts, top};
+use crate::{Box3d, ViewRegion};
+
+/// A cell is divided if its set is larger by more than this than what is seen from points in a quarter
+/// of it, the largest of the four: that much would be loaded in vain on average.
+const GROWTH: f64 = 1.3;
+
+/// A box of the view region with what can be seen from anywhere in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ViewCell {
+    /// Where eyes may be, metres.
+    pub bounds: Box3d,
+    /// The features that may be seen, by the positions of their tiles and their own.
+    pub visible: Vec<(usize, usize)>,
+}
+
+/// How a view region is covered with cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoverOptions {
+    /// How far eyes see, metres.
+    pub range: f64,
+    /// Edge below which no cell is divided, metres.
+    pub smallest: f64,
+    /// Half edge of the smallest parts of a cell that are told apart, metres.
+    pub precision: f64,
+}
+
+impl CellSolver {
+    /// Cells that cover all of the view region that lies in a square of the plan, whose heights do not
+    /// matter: the square, or parts of it where what is seen changes fast. `None` as soon as `cancelled`
+    /// says so.
+    pub fn cover(
+        &mut self,
+        scene: &CellScene,
+        region: &ViewRegion,
+        square: &Box3d,
+        options: &CoverOptions,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Option<Vec<ViewCell>> {
+        let mut cells = Vec::new();
+        let mut open = vec![*square];
+        while let Some(square) = open.pop() {
+            let Some(bounds) = region.filled(&square) else {
+                continue;
+            };
+            let query = CellQuery {
+                bounds,
+                range: options.range,
+                precision: options.precision,
+            };
+            let is_open = |bounds: &Box3d| region.touches(bounds);
+            let visible = self.solve(scene, &query, &is_open, cancelled)?;
+            let may_divide = square.size().truncate().max_element() > options.smallest;
+            if may_divide && self.grows(scene, region, &query, visible.len()) {
+                open.extend(parts(&square));
+            } else {
+                cells.push(ViewCell { bounds, visible });
+            }
+        }
+        Some(cells)
+    }
+
+    /// Whether much more is seen from all of a cell than from any quarter.
+    fn grows(
+        &mut self,
+        scene: &CellScene,
+        region: &ViewRegion,
+        query: &CellQuery,
+        count: usize,
+    ) -> bool {
+        let is_eye = |&eye: &_| region.touches(&Box3d::new(eye, eye)) && !scene.holds(eye);
+        let counts = parts(&query.bounds).map(|part| {
+            let eyes = around(&part).into_iter().chain([top(&part)]).filter(is_eye);
+            self.count_from(scene, eyes, query.range)
+        });
+        let most = counts.max().unwrap_or(0);
+        count as f64 > GROWTH * most as f64
+    }
+}

@@ -1,0 +1,16 @@
+//! What can be seen from anywhere in a view cell.
+//!
+//! What the union of all that hides, eroded by the box that an eye may move in, hides from the middle of
+//! the cell is hidden from all of it: one problem of a point ([`crate::PointSolver`]) for each cell. Where
+//! that leaves something open, the cell is divided.
+
+mod cover;
+mod crack;
+mod erosion;
+mod scene;
+mod solver;
+
+pub use cover::{CoverOptions, ViewCell};
+pub use erosion::EROSION_MARGIN;
+pub use scene::{CellScene, CellTile};
+pub use solver::{CellQuery, CellSolver};

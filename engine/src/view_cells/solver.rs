@@ -1,0 +1,275 @@
+//! [`CellSolver`], the visible set of a view cell.
+
+use std::collections::{HashMap, HashSet};
+
+use glam::DVec3;
+
+use super::scene::{CellScene, Plain, Stage};
+use crate::point_visibility::{Known, Sifting, Spot};
+use crate::{Box3d, PointQuery, PointSolver};
+
+/// Half edge in metres above which a cell is divided at once: less than half a building is left of a
+/// larger erosion.
+const LARGEST: f64 = 2.0;
+
+/// Half edge in metres of the smallest cells from whose middle one looks what can be seen: from smaller
+/// ones hardly anything is that was not from larger ones.
+const LEAST_SAMPLED: f64 = 0.5;
+
+/// What is asked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CellQuery {
+    /// Where eyes may be, metres.
+    pub bounds: Box3d,
+    /// How far they see, metres (Euclidean); may be infinite.
+    pub range: f64,
+    /// Parts of the cell whose half edges are no longer than this, metres, are not divided further.
+    pub precision: f64,
+}
+
+/// Finds what can be seen from anywhere in a view cell.
+///
+/// Conservative: what it leaves out can be seen from no eye in the cell that is outside of all solids
+/// (`docs/how-it-works.md`, "From a view cell"). Its memory is kept from one cell to the next.
+#[derive(Debug, Default)]
+pub struct CellSolver {
+    points: PointSolver,
+    seen: HashSet<Spot>,
+    /// How many problems of a point were solved.
+    pub solves: usize,
+}
+
+/// What is not known to be hidden from all of a cell, nor seen from some of it.
+struct Left {
+    /// Features with their outer envelopes.
+    features: Vec<(Spot, Box3d)>,
+    /// Tiles of what may hide them.
+    tiles: Vec<usize>,
+}
+
+impl CellSolver {
+    /// The features that may be seen from somewhere in a cell, by the positions of their tiles and their
+    /// own; `None` as soon as `cancelled` says so. `is_open` says whether an eye may be anywhere in a box,
+    /// which may be a single point; if in doubt, it may.
+    pub fn solve(
+        &mut self,
+        scene: &CellScene,
+        query: &CellQuery,
+        is_open: &dyn Fn(&Box3d) -> bool,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Option<Vec<(usize, usize)>> {
+        self.seen.clear();
+        self.solves = 0;
+        let mut search = Search {
+            solver: self,
+            scene,
+            stages: HashMap::new(),
+            range: query.range,
+            precision: query.precision,
+            is_open,
+            cancelled,
+        };
+        search.divide(query.bounds);
+        if cancelled() {
+            return None;
+        }
+        let mut seen: Vec<(usize, usize)> = self
+            .seen
+            .iter()
+            .map(|spot| (spot.tile, spot.feature))
+            .collect();
+        seen.sort_unstable();
+        Some(seen)
+    }
+
+    /// How many features are seen from some points, all together.
+    pub(super) fn count_from(
+        &mut self,
+        scene: &CellScene,
+        eyes: impl Iterator<Item = DVec3>,
+        range: f64,
+    ) -> usize {
+        self.seen.clear();
+        for eye in eyes {
+            self.look_from(scene, eye, range);
+        }
+        self.seen.len()
+    }
+
+    /// Notes what is seen from a point.
+    fn look_from(&mut self, scene: &CellScene, eye: DVec3, range: f64) {
+        let query = PointQuery {
+            eye,
+            range,
+            prisms: true,
+            wedge: None,
+        };
+        let mut sightings = Vec::new();
+        let Ok(()) = self.points.solve(&query, &mut Plain(scene), &mut sightings);
+        self.solves += 1;
+        let spots = sightings.iter().map(|seen| Spot {
+            tile: seen.tile,
+            feature: seen.feature,
+        });
+        self.seen.extend(spots);
+    }
+}
+
+struct Search<'a> {
+    solver: &'a mut CellSolver,
+    scene: &'a CellScene,
+    /// By the bits of the size of erosion.
+    stages: HashMap<Option<u64>, Stage<'a>>,
+    range: f64,
+    precision: f64,
+    is_open: &'a dyn Fn(&Box3d) -> bool,
+    cancelled: &'a dyn Fn() -> bool,
+}
+
+impl Search<'_> {
+    /// Divides a cell until its parts are small enough to be solved.
+    fn divide(&mut self, cell: Box3d) {
+        if !(self.is_open)(&cell) || (self.cancelled)() {
+            return;
+        }
+        if half(&cell) > LARGEST {
+            for part in parts(&cell) {
+                self.divide(part);
+            }
+            return;
+        }
+        self.look_around(&cell);
+        let left = self.sift(&cell, None);
+        self.refine(&cell, left);
+    }
+
+    /// Finds out which of some features can be seen from somewhere in a cell, of which nothing hides them
+    /// that hides from everywhere.
+    fn refine(&mut self, cell: &Box3d, mut left: Left) {
+        if left.features.is_empty() || (self.cancelled)() {
+            return;
+        }
+        let half = half(cell);
+        if half <= self.precision {
+            self.solver
+                .seen
+                .extend(left.features.iter().map(|(spot, _)| *spot));
+            return;
+        }
+        if half >= LEAST_SAMPLED {
+            self.see(top(cell), &left);
+        }
+        for part in parts(cell) {
+            left.features
+                .retain(|(spot, _)| !self.solver.seen.contains(spot));
+            if left.features.is_empty() {
+                return;
+            }
+            if (self.is_open)(&part) {
+                let still = self.sift(&part, Some(&left));
+                self.refine(&part, still);
+            }
+        }
+    }
+
+    /// Notes what is seen from two points halfway between the middle of a cell and its corners.
+    fn look_around(&mut self, cell: &Box3d) {
+        let [first, .., last] = around(cell);
+        for eye in [first, last] {
+            if self.is_eye(eye) {
+                self.solver.look_from(self.scene, eye, self.range);
+            }
+        }
+    }
+
+    fn is_eye(&self, place: DVec3) -> bool {
+        (self.is_open)(&Box3d::new(place, place)) && !self.scene.holds(place)
+    }
+
+    /// Notes which of some features can be seen from a point, if an eye may be there.
+    fn see(&mut self, eye: DVec3, left: &Left) {
+        if self.is_eye(eye) {
+            let near = Box3d::new(eye, eye);
+            let seen = self.sift_from(eye, near, None, Some(left));
+            self.solver
+                .seen
+                .extend(seen.features.iter().map(|(spot, _)| *spot));
+        }
+    }
+
+    /// Finds which features are not hidden from all of a cell.
+    fn sift(&mut self, cell: &Box3d, before: Option<&Left>) -> Left {
+        self.sift_from(top(cell), *cell, Some(half(cell)), before)
+    }
+
+    fn sift_from(
+        &mut self,
+        eye: DVec3,
+        near: Box3d,
+        half: Option<f64>,
+        before: Option<&Left>,
+    ) -> Left {
+        let sifting = Sifting {
+            eye,
+            near,
+            range: self.range,
+            first_hiding: self.scene.len(),
+            known: before.map(|left| Known {
+                features: &left.features,
+                tiles: &left.tiles,
+            }),
+        };
+        let scene = self.scene;
+        let stage = self
+            .stages
+            .entry(half.map(f64::to_bits))
+            .or_insert_with(|| Stage::new(scene, half));
+        let CellSolver {
+            points,
+            seen,
+            solves,
+        } = &mut *self.solver;
+        *solves += 1;
+        let mut features = Vec::new();
+        let skip = |spot: Spot| seen.contains(&spot);
+        let Ok(tiles) = points.sift(&sifting, stage, skip, |spot, envelope| {
+            features.push((spot, envelope));
+        });
+        Left { features, tiles }
+    }
+}
+
+/// Half of the longer edge in plan, metres.
+fn half(cell: &Box3d) -> f64 {
+    0.5 * cell.size().truncate().max_element()
+}
+
+/// The middle of its upper face, from where nothing is hidden that is not from below it, too.
+pub(super) fn top(cell: &Box3d) -> DVec3 {
+    cell.center().with_z(cell.max.z)
+}
+
+/// Points halfway between the middle of its upper face and the corners of that.
+pub(super) fn around(cell: &Box3d) -> [DVec3; 4] {
+    let corners = cell.corners();
+    [4, 5, 6, 7].map(|at: usize| corners[at].midpoint(top(cell)))
+}
+
+/// A cell, divided in plan where it is longer than half of its longer edge.
+pub(super) fn parts(cell: &Box3d) -> impl Iterator<Item = Box3d> + use<> {
+    let size = cell.size().truncate();
+    let is_long = size.to_array().map(|edge| 2.0 * edge > size.max_element());
+    let (cell, middle) = (*cell, cell.center());
+    (0..4_usize).filter_map(move |part| {
+        let mut half = cell;
+        for axis in 0..2 {
+            match (is_long[axis], part >> axis & 1) {
+                (true, 0) => half.max[axis] = middle[axis],
+                (true, _) => half.min[axis] = middle[axis],
+                (false, 0) => {}
+                (false, _) => return None,
+            }
+        }
+        Some(half)
+    })
+}

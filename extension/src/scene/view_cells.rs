@@ -1,0 +1,454 @@
+//! `generate_view_cells`.
+//!
+//! The view region is divided into squares, rows of the table `view_cell_block`. Each is locked, covered with
+//! cells and marked as done in one transaction: several sessions share the work, and what was interrupted
+//! is taken up by whoever calls next.
+
+use super::job::Job;
+use super::procedure::Procedure;
+use super::workers::Workers;
+use super::{failed, given, quoted, run, streets};
+use crate::error::Refusal;
+use crate::settings;
+use crate::types::Box3d;
+use crate::visibility::Surroundings;
+use engine::{CellScene, CellSolver, CoverOptions, Street, ViewCell, ViewRegion, plan_key};
+use geo::BoundingRect;
+use glam::DVec3;
+use pgrx::datum::DatumWithOid;
+use pgrx::{PgSqlErrorCode, Spi, notice, pg_extern, pg_sys};
+use rayon::prelude::*;
+use std::collections::HashSet;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// Name of the work in the table `job`.
+const TASK: &str = "generate_view_cells";
+
+/// Least edge of the squares that are computed in one transaction, metres.
+const BLOCK: f64 = 32.0;
+
+/// Blocks of a scene at the most; a larger one takes larger cells.
+const MOST_BLOCKS: usize = 10_000_000;
+
+/// Metres by which more than the range is read.
+const RANGE_MARGIN: f64 = 1e-3;
+
+/// Computes what can be seen from everywhere in the streets of a scene.
+#[pg_extern]
+fn generate_view_cells(
+    scene: Option<&str>,
+    range: Option<f64>,
+    smallest: Option<f64>,
+    largest: Option<f64>,
+    finest: Option<f64>,
+    fcinfo: pg_sys::FunctionCallInfo,
+) {
+    let scene = given(scene, "scene");
+    let asked = Asked::checked(range, smallest, largest, finest);
+    let mut procedure = Procedure::begin(fcinfo, TASK);
+    require_latest();
+    run("SELECT occlusion.require_all_cells($1)", &[scene.into()]);
+    let job = Job::new(scene, TASK);
+    let blocks = Blocks(quoted(scene));
+    if blocks.left(&asked) {
+        notice!("going on where scene \"{scene}\" was left");
+    } else {
+        blocks.plan(scene, &asked, &job);
+    }
+    procedure.commit();
+
+    let workers = Workers::start();
+    let room = settings::generate_bytes();
+    let mut surroundings = Surroundings::new(scene, room);
+    let begun = Instant::now();
+    let mut told = 0;
+    while let Some(block) = blocks.take() {
+        let made = blocks.fill(&block, &mut surroundings, &workers, scene);
+        let (done, total) = job.add(made);
+        procedure.commit();
+        let tenths = done * 10 / total.max(1);
+        if tenths > told {
+            told = tenths;
+            notice!(
+                "{done} of {total} squares, {:.0} s",
+                begun.elapsed().as_secs_f64()
+            );
+        }
+    }
+    blocks.finish(&job);
+    procedure.commit();
+    procedure.end();
+}
+
+/// What the user asked for, checked.
+#[derive(Clone, Copy)]
+struct Asked {
+    range: f64,
+    smallest: f64,
+    largest: f64,
+    finest: f64,
+}
+
+impl Asked {
+    fn checked(
+        range: Option<f64>,
+        smallest: Option<f64>,
+        largest: Option<f64>,
+        finest: Option<f64>,
+    ) -> Self {
+        let asked = Self {
+            range: between(given(range, "range"), "range", [1.0, 1e6]),
+            smallest: between(given(smallest, "smallest"), "smallest", [0.5, 1e3]),
+            largest: between(given(largest, "largest"), "largest", [0.5, 1e3]),
+            finest: between(given(finest, "finest"), "finest", [0.05, 1e3]),
+        };
+        if asked.smallest > asked.largest {
+            Refusal::new(
+                PgSqlErrorCode::ERRCODE_INVALID_PARAMETER_VALUE,
+                format!(
+                    "smallest {} is larger than largest {}",
+                    asked.smallest, asked.largest
+                ),
+            )
+            .raise();
+        }
+        asked
+    }
+
+    /// Edge of a block: cells fit in it.
+    fn block(&self) -> f64 {
+        let mut edge = self.largest;
+        while edge < BLOCK {
+            edge *= 2.0;
+        }
+        edge
+    }
+
+    fn arguments(&self) -> [DatumWithOid<'static>; 4] {
+        [self.range, self.smallest, self.largest, self.finest].map(Into::into)
+    }
+}
+
+fn between(value: f64, name: &str, [least, most]: [f64; 2]) -> f64 {
+    if (least..=most).contains(&value) {
+        return value;
+    }
+    Refusal::new(
+        PgSqlErrorCode::ERRCODE_INVALID_PARAMETER_VALUE,
+        format!("{name} {value} is out of bounds"),
+    )
+    .detail(format!("{name} is between {least} and {most} metres."))
+    .raise()
+}
+
+/// Raises an error where statements would not see what others commit meanwhile.
+fn require_latest() {
+    // SAFETY: a variable of the backend.
+    let level = unsafe { pg_sys::XactIsoLevel };
+    if level >= pg_sys::XACT_REPEATABLE_READ.cast_signed() {
+        Refusal::new(
+            PgSqlErrorCode::ERRCODE_INVALID_TRANSACTION_STATE,
+            format!("{TASK} runs in transactions that are READ COMMITTED"),
+        )
+        .hint("SET default_transaction_isolation = 'read committed';")
+        .raise();
+    }
+}
+
+/// The squares of a scene, whose name is quoted.
+struct Blocks(String);
+
+/// One that is locked.
+struct Block {
+    id: i64,
+    area: engine::Box3d,
+    asked: Asked,
+}
+
+impl Blocks {
+    /// Locks the table against others who begin; whether there is work left of the same kind.
+    fn left(&self, asked: &Asked) -> bool {
+        run(
+            &format!("LOCK TABLE {}.view_cell_block IN EXCLUSIVE MODE", self.0),
+            &[],
+        );
+        let query = format!(
+            "SELECT EXISTS (SELECT FROM {}.view_cell_block WHERE NOT done \
+                 AND range OPERATOR(pg_catalog.=) $1 AND smallest OPERATOR(pg_catalog.=) $2 \
+                 AND largest OPERATOR(pg_catalog.=) $3 AND finest OPERATOR(pg_catalog.=) $4)",
+            self.0
+        );
+        one(&query, &asked.arguments()).unwrap_or(false)
+    }
+
+    /// Plans all anew. Cells that are there stay until their square is done, unless they are of another kind
+    /// or where no street is any more.
+    fn plan(&self, scene: &str, asked: &Asked, job: &Job) {
+        let streets = streets::read(scene);
+        let query = format!("SELECT EXISTS (SELECT FROM {}.feature)", self.0);
+        if streets.is_empty() && one(&query, &[]).unwrap_or(false) {
+            streets::refuse_none(scene);
+        }
+        run("SELECT occlusion.assign_slots($1)", &[scene.into()]);
+        // Who is editing now may have begun before there was a log.
+        run(
+            &format!(
+                "LOCK TABLE {0}.feature, {0}.solid_column, {0}.inner_envelope, {0}.mesh, {0}.street \
+                 IN SHARE MODE",
+                self.0
+            ),
+            &[],
+        );
+        let squares = squares(streets, asked.block());
+        let column =
+            |pick: fn(&engine::Box3d) -> f64| -> Vec<f64> { squares.iter().map(pick).collect() };
+        let corners: [DatumWithOid; 4] = [
+            column(|square| square.min.x).into(),
+            column(|square| square.min.y).into(),
+            column(|square| square.max.x).into(),
+            column(|square| square.max.y).into(),
+        ];
+        let arguments: Vec<DatumWithOid> = asked.arguments().into_iter().chain(corners).collect();
+        let kind = "range OPERATOR(pg_catalog.=) $1 AND smallest OPERATOR(pg_catalog.=) $2 \
+                    AND largest OPERATOR(pg_catalog.=) $3 AND finest OPERATOR(pg_catalog.=) $4";
+        run(
+            &format!(
+                "DELETE FROM {0}.view_cell \
+                 WHERE NOT EXISTS (SELECT FROM {0}.view_cell_block WHERE {kind})",
+                self.0
+            ),
+            &asked.arguments(),
+        );
+        run(&format!("DELETE FROM {}.view_cell_block", self.0), &[]);
+        run(
+            &format!(
+                "INSERT INTO {}.view_cell_block (id, area, range, smallest, largest, finest) \
+                 SELECT s.number, occlusion.box3d(occlusion.point3d(s.x0, s.y0, 0), \
+                                                  occlusion.point3d(s.x1, s.y1, 0)), $1, $2, $3, $4 \
+                 FROM ROWS FROM (pg_catalog.unnest($5), pg_catalog.unnest($6), \
+                                 pg_catalog.unnest($7), pg_catalog.unnest($8)) \
+                      WITH ORDINALITY AS s (x0, y0, x1, y1, number)",
+                self.0
+            ),
+            &arguments,
+        );
+        run(
+            &format!(
+                "DELETE FROM {0}.view_cell AS c WHERE NOT EXISTS ( \
+                     SELECT FROM {0}.view_cell_block AS b WHERE {1})",
+                self.0, LIES_IN
+            ),
+            &[],
+        );
+        notice!("{} squares of {} m", squares.len(), asked.block());
+        job.start(squares.len());
+    }
+
+    /// Locks a square that is not done, and that nobody else is at.
+    fn take(&self) -> Option<Block> {
+        let query = format!(
+            "SELECT id, area, range, smallest, largest, finest FROM {}.view_cell_block \
+             WHERE NOT done ORDER BY id LIMIT 1 FOR UPDATE SKIP LOCKED",
+            self.0
+        );
+        let block = Spi::connect_mut(|client| {
+            let row = client.update(&query, None, &[])?.first();
+            if row.is_empty() {
+                return Ok(None);
+            }
+            let number = |column: usize| row.get::<f64>(column).map(Option::unwrap_or_default);
+            let block = row.get::<i64>(1)?.zip(row.get::<Box3d>(2)?);
+            let asked = Asked {
+                range: number(3)?,
+                smallest: number(4)?,
+                largest: number(5)?,
+                finest: number(6)?,
+            };
+            Ok::<_, pgrx::spi::Error>(block.map(|(id, area)| Block {
+                id,
+                area: area.0,
+                asked,
+            }))
+        });
+        block.unwrap_or_else(|error| failed(&error))
+    }
+
+    /// Covers a square with cells; returns how many there are.
+    fn fill(
+        &self,
+        block: &Block,
+        surroundings: &mut Surroundings,
+        workers: &Workers,
+        scene: &str,
+    ) -> usize {
+        // Before anything is read: what is edited from now on is not in the sets, or looks as if it were not.
+        let snapshot: Option<String> = one(
+            "SELECT pg_catalog.pg_current_snapshot()::pg_catalog.text",
+            &[],
+        );
+        let region = ViewRegion::new(streets::near(scene, &block.area));
+        let reach = block.asked.range + RANGE_MARGIN;
+        let near = region.filled(&block.area).map(|eyes| engine::Box3d {
+            min: eyes.min - reach,
+            max: eyes.max + reach,
+        });
+        let tiles = near.map_or(Vec::new(), |near| surroundings.around(&near));
+        let around = CellScene::new(tiles);
+        let cells = workers.run(|cancelled| cover(&around, &region, block, cancelled));
+        let ids: HashSet<i64> = cells
+            .iter()
+            .flat_map(|cell| &cell.visible)
+            .map(|&spot| around.feature(spot).0)
+            .collect();
+        let slots = surroundings.slots(&ids);
+        run(
+            &format!(
+                "DELETE FROM {0}.view_cell AS c USING {0}.view_cell_block AS b \
+                 WHERE b.id OPERATOR(pg_catalog.=) $1 AND {1}",
+                self.0, LIES_IN
+            ),
+            &[block.id.into()],
+        );
+        let mut made = 0;
+        for cell in &cells {
+            let seen = cell.visible.iter().map(|&spot| around.feature(spot).0);
+            let seen: Option<Vec<i64>> = seen.map(|id| slots.get(&id).copied()).collect();
+            // A feature that was added since has no slot: of what sees it, nothing is known yet.
+            let Some(seen) = seen else { continue };
+            self.insert(&cell.bounds, block.asked.range, seen, snapshot.as_deref());
+            made += 1;
+        }
+        run(
+            &format!(
+                "UPDATE {}.view_cell_block SET done = true WHERE id OPERATOR(pg_catalog.=) $1",
+                self.0
+            ),
+            &[block.id.into()],
+        );
+        made
+    }
+
+    fn insert(&self, bounds: &engine::Box3d, range: f64, slots: Vec<i64>, snapshot: Option<&str>) {
+        run(
+            &format!(
+                "INSERT INTO {}.view_cell (box, range, visible, snapshot, cluster) \
+                 VALUES ($1, $2, $3::occlusion.feature_set, $4::pg_catalog.pg_snapshot, \
+                         occlusion.cluster_identity())",
+                self.0
+            ),
+            &[
+                Box3d(*bounds).into(),
+                range.into(),
+                slots.into(),
+                snapshot.into(),
+            ],
+        );
+    }
+
+    /// Ends the work if no square is left, and forgets the changes that all cells hold.
+    fn finish(&self, job: &Job) {
+        let query = format!(
+            "SELECT EXISTS (SELECT FROM {}.view_cell_block WHERE NOT done)",
+            self.0
+        );
+        if one(&query, &[]).unwrap_or(true) {
+            notice!("the last squares are being computed by others");
+            return;
+        }
+        job.finish();
+        run(
+            &format!(
+                "DELETE FROM {0}.change WHERE transaction OPERATOR(pg_catalog.<) ( \
+                     SELECT pg_catalog.pg_snapshot_xmin(c.snapshot) FROM {0}.view_cell AS c \
+                     WHERE c.cluster OPERATOR(pg_catalog.=) occlusion.cluster_identity() \
+                     ORDER BY 1 LIMIT 1)",
+                self.0
+            ),
+            &[],
+        );
+    }
+}
+
+/// That a cell c lies in a block b.
+const LIES_IN: &str = "c.box OPERATOR(occlusion.&&) occlusion.box3d( \
+         occlusion.point3d(occlusion.x(occlusion.lower(b.area)), occlusion.y(occlusion.lower(b.area)), -1e300), \
+         occlusion.point3d(occlusion.x(occlusion.upper(b.area)), occlusion.y(occlusion.upper(b.area)), 1e300)) \
+     AND occlusion.x(occlusion.lower(c.box)) OPERATOR(pg_catalog.>=) occlusion.x(occlusion.lower(b.area)) \
+     AND occlusion.x(occlusion.upper(c.box)) OPERATOR(pg_catalog.<=) occlusion.x(occlusion.upper(b.area)) \
+     AND occlusion.y(occlusion.lower(c.box)) OPERATOR(pg_catalog.>=) occlusion.y(occlusion.lower(b.area)) \
+     AND occlusion.y(occlusion.upper(c.box)) OPERATOR(pg_catalog.<=) occlusion.y(occlusion.upper(b.area))";
+
+/// The cells of a square; an incomplete answer only where the work is cancelled.
+fn cover(
+    around: &CellScene,
+    region: &ViewRegion,
+    block: &Block,
+    cancelled: &AtomicBool,
+) -> Vec<ViewCell> {
+    let asked = &block.asked;
+    let options = CoverOptions {
+        range: asked.range,
+        smallest: asked.smallest,
+        precision: asked.finest,
+    };
+    let stop = || cancelled.load(Ordering::Relaxed);
+    let count = (block.area.size().x / asked.largest).round() as usize;
+    let corner = |at: usize| {
+        let place = DVec3::new((at % count) as f64, (at / count) as f64, 0.0);
+        block.area.min + place * asked.largest
+    };
+    let edge = DVec3::new(asked.largest, asked.largest, 0.0);
+    (0..count * count)
+        .into_par_iter()
+        .map_init(CellSolver::default, |solver, at| {
+            let square = engine::Box3d::new(corner(at), corner(at) + edge);
+            solver.cover(around, region, &square, &options, &stop)
+        })
+        .flatten_iter()
+        .flatten()
+        .collect()
+}
+
+/// The squares of a grid on which streets are, along a curve through the plan.
+fn squares(streets: Vec<Street>, edge: f64) -> Vec<engine::Box3d> {
+    let region = ViewRegion::new(streets);
+    let mut places: HashSet<[i64; 2]> = HashSet::new();
+    for street in region.streets() {
+        let Some(bounds) = street.area.bounding_rect() else {
+            continue;
+        };
+        let [low, high] = [bounds.min(), bounds.max()].map(|corner| corner / edge);
+        for x in low.x.floor() as i64..=high.x.floor() as i64 {
+            for y in low.y.floor() as i64..=high.y.floor() as i64 {
+                places.insert([x, y]);
+            }
+        }
+        if places.len() > MOST_BLOCKS {
+            Refusal::new(
+                PgSqlErrorCode::ERRCODE_PROGRAM_LIMIT_EXCEEDED,
+                format!("the streets take more than {MOST_BLOCKS} squares of {edge} m"),
+            )
+            .hint("Larger cells make larger squares: largest => 64.")
+            .raise();
+        }
+    }
+    let square = |[x, y]: [i64; 2]| {
+        let corner = |x: i64, y: i64| DVec3::new(x as f64, y as f64, 0.0) * edge;
+        engine::Box3d::new(corner(x, y), corner(x + 1, y + 1))
+    };
+    let mut squares: Vec<engine::Box3d> = places
+        .into_iter()
+        .map(square)
+        .filter(|square| region.filled(square).is_some())
+        .collect();
+    squares.sort_by_key(|square| plan_key(square.center()));
+    squares
+}
+
+/// The one value of a query.
+fn one<T: pgrx::FromDatum + pgrx::IntoDatum>(query: &str, arguments: &[DatumWithOid]) -> Option<T> {
+    let value =
+        Spi::connect_mut(|client| client.update(query, None, arguments)?.first().get::<T>(1));
+    value.unwrap_or_else(|error| failed(&error))
+}

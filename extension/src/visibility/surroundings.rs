@@ -1,0 +1,138 @@
+//! [`Surroundings`], what view cells are computed from.
+
+use super::base;
+use super::cache::Version;
+use super::packed_tile::PackedTile;
+use super::statements::{Ask, Statements};
+use super::tables::Tables;
+use crate::error::or_raise;
+use crate::snapshot_read::Moment;
+use crate::types::Box3d;
+use engine::{CellTile, Tile, TileFeature, neighbourhoods};
+use lru::LruCache;
+use pgrx::pg_sys::Datum;
+use pgrx::{IntoDatum, Uuid};
+use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// Bytes that a corner of an eroded tile takes, or a few more.
+const CORNER: usize = 32;
+
+/// Features of a tile that is made here, at the most.
+const MOST_FEATURES: usize = 64;
+
+/// The tiles of a scene as they are now, with what is left of them after erosions. They are kept from one
+/// part of the scene to the next, those that were used last longest.
+pub struct Surroundings {
+    scene: String,
+    kept: LruCache<Version, Arc<CellTile>>,
+    room: usize,
+}
+
+impl Surroundings {
+    /// None yet, with room for so many bytes between parts.
+    pub fn new(scene: &str, room: usize) -> Self {
+        Self {
+            scene: scene.to_owned(),
+            kept: LruCache::unbounded(),
+            room,
+        }
+    }
+
+    /// All features that meet a box.
+    pub fn around(&mut self, bounds: &engine::Box3d) -> Vec<Arc<CellTile>> {
+        self.shrink();
+        let tables = Tables::of(&self.scene);
+        let statements = Statements::of(&self.scene, &tables);
+        if tables.has_tiles() && tables.are_watched() && tables.may_read_all() {
+            while let Some(heads) = unedited(&statements, bounds) {
+                // A tile that is gone was packed anew in the meantime.
+                if let Some(tiles) = heads
+                    .into_iter()
+                    .map(|head| self.load(&statements, head))
+                    .collect()
+                {
+                    return tiles;
+                }
+            }
+        }
+        let features = base::near(&statements, Moment::Now, bounds);
+        tiles(features.into_iter().map(|base| base.feature).collect())
+    }
+
+    /// The slots of features, of those that have one.
+    pub fn slots(&self, features: &HashSet<i64>) -> HashMap<i64, i64> {
+        let statements = Statements::of(&self.scene, &Tables::of(&self.scene));
+        let mut slots = HashMap::new();
+        let ids: Vec<i64> = features.iter().copied().collect();
+        statements
+            .get(Ask::Slots)
+            .read(Moment::Now, &argument(ids), |row| {
+                let slot = row.get::<i32>(2).map(i64::from);
+                slots.extend(row.get::<i64>(1).zip(slot));
+            });
+        slots
+    }
+
+    fn load(
+        &mut self,
+        statements: &Statements,
+        (id, version): (i64, Version),
+    ) -> Option<Arc<CellTile>> {
+        if let Some(tile) = self.kept.get(&version) {
+            return Some(Arc::clone(tile));
+        }
+        let mut read = None;
+        let content = statements.get(Ask::Content);
+        content.read(Moment::Now, &argument(id), |row| {
+            read = row.get::<&[u8]>(1).map(PackedTile::from_bytes);
+        });
+        let tile = Arc::new(CellTile::new(or_raise(read?).tile));
+        self.kept.put(version, Arc::clone(&tile));
+        Some(tile)
+    }
+
+    fn shrink(&mut self) {
+        let size = |tile: &Arc<CellTile>| CORNER * tile.corner_count();
+        let mut all: usize = self.kept.iter().map(|(_, tile)| size(tile)).sum();
+        while all > self.room
+            && let Some((_, tile)) = self.kept.pop_lru()
+        {
+            all -= size(&tile);
+        }
+    }
+}
+
+/// Ids and versions of the tiles that meet a box; `None` if there are none, or something was edited since
+/// they were packed.
+fn unedited(statements: &Rc<Statements>, bounds: &engine::Box3d) -> Option<Vec<(i64, Version)>> {
+    let bounds = argument(Box3d(*bounds));
+    let mut heads = Vec::new();
+    statements
+        .get(Ask::Tiles)
+        .read(Moment::Now, &bounds, |row| {
+            let version = row.get::<Uuid>(3).map(|uuid| *uuid.as_bytes());
+            heads.extend(row.get::<i64>(1).zip(version));
+        });
+    let mut is_edited = false;
+    statements
+        .get(Ask::Edits)
+        .read(Moment::Now, &bounds, |_| is_edited = true);
+    (!is_edited && !heads.is_empty()).then_some(heads)
+}
+
+/// Tiles of some features.
+fn tiles(features: Vec<TileFeature>) -> Vec<Arc<CellTile>> {
+    let boxes: Vec<engine::Box3d> = features.iter().map(|feature| feature.envelope).collect();
+    let tile = |group: Vec<usize>| {
+        let members: Vec<TileFeature> = group.iter().map(|&at| features[at].clone()).collect();
+        Arc::new(CellTile::new(Tile::new(&members)))
+    };
+    let groups = neighbourhoods(&boxes, |_| 1, MOST_FEATURES);
+    groups.into_iter().map(tile).collect()
+}
+
+fn argument(value: impl IntoDatum) -> Vec<Datum> {
+    value.into_datum().into_iter().collect()
+}

@@ -1,0 +1,213 @@
+-- View cells: boxes of the view region with what can be seen from anywhere in them, and from where a
+-- feature can be seen.
+
+-- Adds the tables of view cells to a scene, and the trigger that logs changes of its streets; those on
+-- features and what hides in them are there (add_tiles).
+CREATE FUNCTION occlusion.add_view_cells(scene text) RETURNS void
+LANGUAGE plpgsql VOLATILE STRICT
+SET search_path = pg_catalog, pg_temp AS $$
+BEGIN
+    EXECUTE format($ddl$
+        CREATE TABLE %1$I.view_cell (
+            id bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
+            box occlusion.box3d NOT NULL,
+            range float8 NOT NULL CHECK (range > 0),
+            visible occlusion.feature_set NOT NULL,
+            snapshot pg_snapshot NOT NULL,
+            cluster bigint NOT NULL
+        );
+        CREATE INDEX view_cell_box ON %1$I.view_cell USING gist (box);
+        CREATE INDEX view_cell_visible ON %1$I.view_cell USING gin (visible);
+        COMMENT ON TABLE %1$I.view_cell IS 'what can be seen from anywhere in a box of the view region; derived';
+        COMMENT ON COLUMN %1$I.view_cell.id IS 'number of the cell';
+        COMMENT ON COLUMN %1$I.view_cell.box IS 'where eyes are, metres';
+        COMMENT ON COLUMN %1$I.view_cell.range IS 'how far they see, metres';
+        COMMENT ON COLUMN %1$I.view_cell.visible IS 'slots of the features that may be seen from somewhere in the box';
+        COMMENT ON COLUMN %1$I.view_cell.snapshot IS 'edits that this snapshot does not show are not in the set';
+        COMMENT ON COLUMN %1$I.view_cell.cluster IS 'system identifier of the cluster whose transactions the snapshot is about';
+
+        CREATE TABLE %1$I.view_cell_block (
+            id bigint PRIMARY KEY,
+            area occlusion.box3d NOT NULL,
+            range float8 NOT NULL,
+            smallest float8 NOT NULL,
+            largest float8 NOT NULL,
+            finest float8 NOT NULL,
+            done boolean NOT NULL DEFAULT false
+        );
+        CREATE INDEX view_cell_block_open ON %1$I.view_cell_block (id) WHERE NOT done;
+        COMMENT ON TABLE %1$I.view_cell_block IS 'squares of the view region, each covered with view cells in one transaction; derived';
+        COMMENT ON COLUMN %1$I.view_cell_block.id IS 'number, along a curve through the plan';
+        COMMENT ON COLUMN %1$I.view_cell_block.area IS 'the square, at height 0';
+        COMMENT ON COLUMN %1$I.view_cell_block.range IS 'how far eyes see, metres';
+        COMMENT ON COLUMN %1$I.view_cell_block.smallest IS 'edge below which no cell is divided, metres';
+        COMMENT ON COLUMN %1$I.view_cell_block.largest IS 'longest edge of a cell, metres';
+        COMMENT ON COLUMN %1$I.view_cell_block.finest IS 'half edge of the smallest parts of a cell that are told apart, metres';
+        COMMENT ON COLUMN %1$I.view_cell_block.done IS 'whether its cells are there';
+
+        CREATE TABLE %1$I.change (
+            feature bigint,
+            place occlusion.box3d,
+            transaction xid8 NOT NULL DEFAULT pg_current_xact_id()
+        );
+        ALTER TABLE %1$I.change REPLICA IDENTITY FULL;
+        CREATE INDEX change_transaction ON %1$I.change (transaction);
+        COMMENT ON TABLE %1$I.change IS 'log: what was edited since view cells are computed; derived';
+        COMMENT ON COLUMN %1$I.change.feature IS 'feature that was edited; NULL: a street';
+        COMMENT ON COLUMN %1$I.change.place IS 'box around it before or after; NULL: wherever the feature is';
+        COMMENT ON COLUMN %1$I.change.transaction IS 'which transaction did it';
+
+        CREATE TRIGGER log_edit_after AFTER INSERT OR UPDATE OR DELETE ON %1$I.street
+            FOR EACH ROW EXECUTE FUNCTION occlusion.log_edit();
+        CREATE TRIGGER log_truncate AFTER TRUNCATE ON %1$I.street
+            FOR EACH STATEMENT EXECUTE FUNCTION occlusion.log_edit();
+        ALTER TABLE %1$I.street ENABLE ALWAYS TRIGGER log_edit_after;
+        ALTER TABLE %1$I.street ENABLE ALWAYS TRIGGER log_truncate;
+    $ddl$, scene);
+END
+$$;
+COMMENT ON FUNCTION occlusion.add_view_cells(text) IS
+    'adds the tables of view cells to a scene, and the trigger that logs changes of streets';
+
+CREATE PROCEDURE occlusion.generate_view_cells(scene text, range float8 DEFAULT 500,
+                                               smallest float8 DEFAULT 4, largest float8 DEFAULT 16,
+                                               finest float8 DEFAULT 0.25)
+LANGUAGE c AS 'MODULE_PATHNAME', 'generate_view_cells_wrapper';
+COMMENT ON PROCEDURE occlusion.generate_view_cells(text, float8, float8, float8, float8) IS
+    'computes what can be seen from every part of the streets; goes on where it was interrupted, and shares the work with other sessions that call it; range: how far eyes see, smallest and largest: edges of cells, finest: half edge of the smallest parts of a cell that are told apart, all in metres';
+
+-- Whether a view cell c is right under the snapshot of the query: no edit that the query sees and the cell
+-- does not is near it. It is only asked where the cluster is the one whose transactions the cell names.
+CREATE FUNCTION occlusion.valid_cell_condition(scene text) RETURNS text
+LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
+SET search_path = pg_catalog, pg_temp AS $$
+    SELECT format($q$
+        NOT EXISTS (
+            SELECT FROM %1$I.change AS e
+            LEFT JOIN %1$I.feature AS f ON e.place IS NULL AND f.id OPERATOR(pg_catalog.=) e.feature
+            WHERE NOT pg_catalog.pg_visible_in_snapshot(e.transaction, c.snapshot)
+              AND CASE WHEN e.feature IS NULL THEN e.place OPERATOR(occlusion.&&) c.box
+                       ELSE coalesce(e.place, f.envelope) OPERATOR(occlusion.&&) occlusion.expand(c.box, c.range) END
+        )
+    $q$, scene)
+$$;
+COMMENT ON FUNCTION occlusion.valid_cell_condition(text) IS
+    'the condition that a view cell, c, holds what can be seen now';
+
+-- The cells that hold an eye, $1, in a cluster, $2, and are right; none where the eye is not in the view
+-- region, or within a millimetre of a solid.
+CREATE FUNCTION occlusion.view_cell_statement(scene text) RETURNS text
+LANGUAGE sql STABLE STRICT PARALLEL SAFE
+SET search_path = pg_catalog, pg_temp AS $$
+    SELECT format($q$
+        SELECT c.visible::occlusion.feature_set, c.box::occlusion.box3d, c.range::pg_catalog.float8
+        FROM %1$I.view_cell AS c
+        WHERE c.box OPERATOR(occlusion.@>) $1 AND c.cluster OPERATOR(pg_catalog.=) $2 AND %2$s AND (SELECT %3$s)
+        LIMIT 1
+    $q$, scene, occlusion.valid_cell_condition(scene), occlusion.is_eye_condition(scene))
+$$;
+COMMENT ON FUNCTION occlusion.view_cell_statement(text) IS 'the statement that finds the view cell of an eye';
+
+CREATE FUNCTION occlusion.visible_set(scene text, observer occlusion.point3d)
+RETURNS TABLE (visible occlusion.feature_set, box occlusion.box3d, range float8)
+LANGUAGE c STABLE STRICT PARALLEL SAFE ROWS 1 COST 1000
+AS 'MODULE_PATHNAME', 'visible_set_wrapper';
+COMMENT ON FUNCTION occlusion.visible_set(text, occlusion.point3d) IS
+    'slots of all features that may be seen from anywhere in a box around the observer, out to a range; no row where no view cell is known to be right';
+
+CREATE FUNCTION occlusion.visible_set_change(scene text, origin occlusion.point3d, destination occlusion.point3d)
+RETURNS TABLE (appearing occlusion.feature_set, disappearing occlusion.feature_set,
+               box occlusion.box3d, range float8)
+LANGUAGE sql STABLE STRICT PARALLEL SAFE ROWS 1
+BEGIN ATOMIC
+    SELECT there.visible OPERATOR(occlusion.-) here.visible, here.visible OPERATOR(occlusion.-) there.visible,
+           there.box, there.range
+    FROM occlusion.visible_set(scene, origin) AS here
+    CROSS JOIN occlusion.visible_set(scene, destination) AS there;
+END;
+COMMENT ON FUNCTION occlusion.visible_set_change(text, occlusion.point3d, occlusion.point3d) IS
+    'which features to load and which to drop when an observer goes from one view cell to another; no row where one of them is not known to be right';
+
+CREATE FUNCTION occlusion.cluster_identity() RETURNS bigint
+LANGUAGE c STABLE PARALLEL SAFE AS 'MODULE_PATHNAME', 'cluster_identity_wrapper';
+COMMENT ON FUNCTION occlusion.cluster_identity() IS
+    'system identifier of the cluster, outside of which its transaction ids mean nothing';
+
+-- Raises an error where row security would hide features, cells or changes from the current user.
+CREATE FUNCTION occlusion.require_all_cells(scene text) RETURNS void
+LANGUAGE plpgsql STABLE STRICT PARALLEL SAFE
+SET search_path = pg_catalog, pg_temp AS $$
+DECLARE
+    source text;
+BEGIN
+    PERFORM occlusion.require_scene(scene);
+    IF to_regclass(format('%I.view_cell', scene)) IS NULL THEN
+        RAISE EXCEPTION 'scene "%" has no tables of view cells', scene
+            USING ERRCODE = 'object_not_in_prerequisite_state',
+                  HINT = format('An older version made it: SELECT occlusion.upgrade_scene(%L) adds them.', scene);
+    END IF;
+    FOREACH source IN ARRAY ARRAY['feature', 'view_cell', 'change'] LOOP
+        IF row_security_active(format('%I.%I', scene, source)) THEN
+            RAISE EXCEPTION 'row security hides rows of %.%', quote_ident(scene), source
+                USING ERRCODE = 'insufficient_privilege',
+                      DETAIL = 'View cells speak of all features.',
+                      HINT = 'Ask visible_features, which is answered live then.';
+        END IF;
+    END LOOP;
+END
+$$;
+COMMENT ON FUNCTION occlusion.require_all_cells(text) IS
+    'raises an error unless the current user sees all features, view cells and changes of a scene';
+
+CREATE FUNCTION occlusion.visible_from(scene text, feature_id bigint)
+RETURNS TABLE (box occlusion.box3d, known boolean)
+LANGUAGE plpgsql STABLE STRICT PARALLEL SAFE COST 10000
+SET search_path = pg_catalog, pg_temp AS $$
+DECLARE
+    slot integer;
+    envelope occlusion.box3d;
+BEGIN
+    PERFORM occlusion.require_all_cells(scene);
+    EXECUTE format('SELECT f.slot, f.envelope FROM %I.feature AS f WHERE f.id = $1', scene)
+        INTO slot, envelope USING feature_id;
+    IF envelope IS NULL THEN
+        RAISE EXCEPTION 'scene "%" has no feature %', scene, feature_id
+            USING ERRCODE = 'no_data_found';
+    END IF;
+    -- Of a cell that may be out of date, nothing is known but how far one sees from it.
+    RETURN QUERY EXECUTE format($q$
+        SELECT c.box, true FROM %1$I.view_cell AS c
+        WHERE c.visible OPERATOR(occlusion.@>) $1 AND c.cluster = $3 AND %2$s
+        UNION ALL
+        SELECT c.box, false FROM %1$I.view_cell AS c
+        WHERE c.box OPERATOR(occlusion.&&) occlusion.expand($2, c.range)
+          AND (c.cluster <> $3 OR NOT (%2$s))
+    $q$, scene, occlusion.valid_cell_condition(scene))
+    USING slot::bigint, envelope, occlusion.cluster_identity();
+END
+$$;
+COMMENT ON FUNCTION occlusion.visible_from(text, bigint) IS
+    'boxes of the streets from somewhere in which a feature may be seen; known: by a view cell that is right, and not because one near it is out of date';
+
+CREATE FUNCTION occlusion.landmarks(scene text)
+RETURNS TABLE (feature_id bigint, class text, cells bigint, share float8)
+LANGUAGE plpgsql STABLE STRICT PARALLEL SAFE COST 100000
+SET search_path = pg_catalog, pg_temp AS $$
+BEGIN
+    PERFORM occlusion.require_all_cells(scene);
+    RETURN QUERY EXECUTE format($q$
+        WITH cell AS (
+            SELECT c.visible, occlusion.x(occlusion.size(c.box)) * occlusion.y(occlusion.size(c.box)) AS area
+            FROM %1$I.view_cell AS c WHERE c.cluster = $1 AND %2$s
+        ), seen AS (
+            SELECT s.slot, count(*) AS cells, sum(c.area) AS area
+            FROM cell AS c CROSS JOIN LATERAL occlusion.unnest(c.visible) AS s (slot) GROUP BY s.slot
+        )
+        SELECT f.id, f.class, s.cells, s.area / (SELECT sum(c.area) FROM cell AS c)
+        FROM seen AS s JOIN %1$I.feature AS f ON f.slot = s.slot
+        ORDER BY s.area DESC, f.id
+    $q$, scene, occlusion.valid_cell_condition(scene)) USING occlusion.cluster_identity();
+END
+$$;
+COMMENT ON FUNCTION occlusion.landmarks(text) IS
+    'features by the share of the plan of all view cells from which they may be seen, the most visible first';

@@ -167,10 +167,13 @@ struct Block {
 }
 
 impl Blocks {
-    /// Locks the table against others who begin; whether there is work left of the same kind.
+    /// Locks the table against others who begin, not against those at work; whether there is work left of the same kind.
     fn left(&self, asked: &Asked) -> bool {
         run(
-            &format!("LOCK TABLE {}.view_cell_block IN EXCLUSIVE MODE", self.0),
+            &format!(
+                "LOCK TABLE {}.view_cell_block IN SHARE UPDATE EXCLUSIVE MODE",
+                self.0
+            ),
             &[],
         );
         let query = format!(

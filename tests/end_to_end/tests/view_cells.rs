@@ -1,0 +1,205 @@
+//! The generation of view cells beside others, cancelled, and taken up again; and cells against what is seen.
+
+use std::thread;
+use std::time::{Duration, Instant};
+
+use end_to_end::{TestScene, client};
+use postgres::error::SqlState;
+
+/// Makes a small town in a scene whose name needs no quotes.
+fn town(test: &str, houses: u32) -> TestScene {
+    let mut scene = TestScene::new(test);
+    scene.name = scene.name.replace(' ', "_");
+    let name = scene.name.clone();
+    scene.run(&format!(
+        "SELECT occlusion.generate_city('{name}', 'streets', {houses}, 5)"
+    ));
+    scene
+}
+
+/// The call, with sets for which little is to be done.
+fn call(scene: &str) -> String {
+    format!("CALL occlusion.generate_view_cells('{scene}', range => 120, finest => 0.5)")
+}
+
+/// All cells, as they would be in any order of work.
+const CELLS: &str = "SELECT string_agg((box, range, visible::text)::text, ' ' ORDER BY box::text) FROM {s}.view_cell";
+
+/// Squares that are done.
+const DONE: &str = "SELECT count(*) FROM {s}.view_cell_block WHERE done";
+
+const LEFT: &str = "SELECT count(*) FROM {s}.view_cell_block WHERE NOT done";
+
+fn text(scene: &mut TestScene, statement: &str) -> String {
+    let statement = statement.replace("{s}", &scene.name);
+    scene
+        .client
+        .query_one(&statement, &[])
+        .expect(&statement)
+        .get(0)
+}
+
+/// The number that a statement returns in which `{n}` stands for the scene's name.
+#[track_caller]
+fn number(scene: &mut TestScene, statement: &str) -> i64 {
+    let statement = statement.replace("{n}", &scene.name);
+    scene.number(&statement)
+}
+
+#[test]
+fn three_sessions_share_the_work_and_make_what_one_makes() {
+    let mut scene = town("cells_shared", 300);
+    scene.run(&call(&scene.name));
+    let alone = text(&mut scene, CELLS);
+    assert!(alone.len() > 1000);
+    let sessions: Vec<_> = (0..3)
+        .map(|_| {
+            let call = call(&scene.name);
+            thread::spawn(move || client().batch_execute(&call))
+        })
+        .collect();
+    for session in sessions {
+        session.join().expect("it ends").expect("it is done");
+    }
+    assert_eq!(scene.number(LEFT), 0);
+    assert_eq!(text(&mut scene, CELLS), alone);
+}
+
+#[test]
+fn a_square_that_another_session_has_in_hand_is_left_to_it() {
+    let mut scene = town("cells_locked", 200);
+    scene.run(&call(&scene.name));
+    let all = scene.number(DONE);
+    // As if a session had been killed before it came to two of the squares.
+    scene.run("UPDATE {s}.view_cell_block SET done = false WHERE id IN (2, 3)");
+    let mut other = client();
+    let lock = format!(
+        "BEGIN; SELECT FROM {}.view_cell_block WHERE id = 2 FOR UPDATE",
+        scene.name
+    );
+    other.batch_execute(&lock).expect("it is locked");
+    // The other one's lock keeps nobody from beginning.
+    scene.run(&call(&scene.name));
+    assert_eq!(scene.number(LEFT), 1);
+    assert_eq!(scene.number(DONE), all - 1);
+    other.batch_execute("ROLLBACK").expect("it is given up");
+    scene.run(&call(&scene.name));
+    assert_eq!(scene.number(LEFT), 0);
+}
+
+#[test]
+fn cancelled_work_keeps_what_it_has_and_goes_on_there() {
+    let mut scene = town("cells_cancelled", 600);
+    let mut worker = client();
+    let backend: i32 = worker
+        .query_one("SELECT pg_backend_pid()", &[])
+        .expect("it has a number")
+        .get(0);
+    let call = call(&scene.name);
+    let work = thread::spawn({
+        let call = call.clone();
+        move || worker.batch_execute(&call)
+    });
+    let began = Instant::now();
+    while scene.number(DONE) < 3 {
+        assert!(
+            began.elapsed() < Duration::from_secs(120),
+            "nothing is done"
+        );
+        thread::sleep(Duration::from_millis(20));
+    }
+    let asked = Instant::now();
+    scene.run(&format!("SELECT pg_cancel_backend({backend})"));
+    let error = work.join().expect("it ends").expect_err("it was cancelled");
+    println!("cancelled after {:?}", asked.elapsed());
+    assert_eq!(error.code(), Some(&SqlState::QUERY_CANCELED));
+    let done = scene.number(DONE);
+    assert!(done >= 3 && scene.number(LEFT) > 0);
+    assert_eq!(
+        number(
+            &mut scene,
+            "SELECT count(*) FROM occlusion.progress('{n}') WHERE state <> 'finished'"
+        ),
+        1
+    );
+    scene.run("CREATE TEMP TABLE before AS SELECT id FROM {s}.view_cell");
+    scene.run(&call);
+    assert_eq!(scene.number(LEFT), 0);
+    // Nothing was made again, or lost.
+    assert_eq!(
+        scene.number("SELECT count(*) FROM before WHERE id NOT IN (SELECT id FROM {s}.view_cell)"),
+        0
+    );
+    let resumed = text(&mut scene, CELLS);
+    scene.run(&call);
+    assert_eq!(text(&mut scene, CELLS), resumed, "made anew from nothing");
+}
+
+#[test]
+fn edits_while_cells_are_computed_are_never_overlooked() {
+    let mut scene = town("cells_edited", 300);
+    let work = thread::spawn({
+        let call = call(&scene.name);
+        move || client().batch_execute(&call)
+    });
+    let began = Instant::now();
+    while scene.number(DONE) < 2 && began.elapsed() < Duration::from_secs(120) {
+        thread::sleep(Duration::from_millis(10));
+    }
+    for id in [10, 60, 110, 160, 210, 260] {
+        scene.run(&format!("DELETE FROM {{s}}.feature WHERE id = {id}"));
+        thread::sleep(Duration::from_millis(50));
+    }
+    work.join().expect("it ends").expect("it is done");
+    assert_eq!(unseen(&mut scene), 0);
+    // Once more, and all are in use again.
+    let call = call(&scene.name);
+    scene.run(&call);
+    assert_eq!(unseen(&mut scene), 0);
+    assert_eq!(scene.number("SELECT count(*) FROM {s}.change"), 0);
+    let in_use = "SELECT count(s.box) * 100 / count(*) FROM pg_temp.generate_eyes() AS e (eye)
+                  LEFT JOIN LATERAL occlusion.visible_set('{n}', e.eye) AS s ON true";
+    assert_eq!(number(&mut scene, in_use), 100);
+}
+
+#[test]
+fn every_eye_of_the_streets_is_in_a_cell_and_sees_nothing_that_its_set_lacks() {
+    let mut scene = town("cells_cover", 400);
+    scene.run(&call(&scene.name));
+    assert_eq!(unseen(&mut scene), 0);
+    let eyes = scene.number("SELECT count(*) FROM pg_temp.generate_eyes()");
+    assert!(eyes > 300, "{eyes} eyes");
+    let covered = "SELECT count(*) FROM pg_temp.generate_eyes() AS e (eye)
+                   CROSS JOIN LATERAL occlusion.visible_set('{n}', e.eye) AS s
+                   WHERE s.box OPERATOR(occlusion.@>) e.eye";
+    assert_eq!(number(&mut scene, covered), eyes);
+}
+
+/// Makes eyes, and counts features that a sight line from one meets, within range, and that its set lacks: a
+/// live answer may hold too much, so what only it has is looked at along sight lines to its surface.
+fn unseen(scene: &mut TestScene) -> i64 {
+    scene.run(
+        "CREATE OR REPLACE FUNCTION pg_temp.generate_eyes() RETURNS SETOF occlusion.point3d LANGUAGE sql STABLE AS $$
+             SELECT occlusion.point3d(px, py, s.eye_low + (s.eye_high - s.eye_low) * (n % 3) / 2)
+             FROM {s}.street AS s, generate_series(1, 60) AS n,
+                  LATERAL (SELECT occlusion.lower(s.envelope) AS a, occlusion.size(s.envelope) AS d) AS e,
+                  LATERAL (SELECT occlusion.x(a) + occlusion.x(d) * mod((n + s.id) * 0.754877666, 1.0)::float8 AS px,
+                                  occlusion.y(a) + occlusion.y(d) * mod((n + s.id) * 0.569840291, 1.0)::float8 AS py) AS p
+             WHERE s.area[1] @> point(px, py)
+             ORDER BY s.id, n LIMIT 600
+         $$;
+         SET search_path = public",
+    );
+    number(
+        scene,
+        "SELECT count(*) FROM pg_temp.generate_eyes() AS e (eye)
+         CROSS JOIN LATERAL occlusion.visible_set('{n}', e.eye) AS s
+         CROSS JOIN LATERAL occlusion.visible_features('{n}', e.eye, 120) AS v
+         JOIN {s}.feature AS f ON f.id = v.feature_id
+         CROSS JOIN LATERAL (SELECT vertices FROM {s}.mesh AS m WHERE m.feature = f.id) AS m
+         CROSS JOIN LATERAL generate_series(1, cardinality(m.vertices), 3) AS at
+         CROSS JOIN LATERAL occlusion.line_of_sight('{n}', e.eye,
+             occlusion.point3d(m.vertices[at], m.vertices[at + 1], m.vertices[at + 2])) AS l
+         WHERE NOT s.visible OPERATOR(occlusion.@>) f.slot::bigint AND l.visible",
+    )
+}

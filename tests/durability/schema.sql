@@ -58,6 +58,10 @@ GRANT USAGE ON SCHEMA public, occlusion, town TO without_tiles;
 GRANT SELECT ON ALL TABLES IN SCHEMA town TO without_tiles;
 REVOKE SELECT ON town.tile, town.edit FROM without_tiles;
 
+-- A quarter that nobody edits, for view cells and occlusion volumes.
+SELECT occlusion.generate_city('quarter', 'streets', 400, 2);
+CALL occlusion.generate_occlusion_volumes('quarter', smallest => 8, range => 100);
+
 -- Moves, lowers, removes and adds some houses, and packs the tiles now and then.
 CREATE PROCEDURE edit_town(round int) LANGUAGE plpgsql AS $$
 BEGIN

@@ -2,7 +2,7 @@
 
 use super::content::Content;
 use crate::error::or_raise;
-use crate::scene::{failed, quoted};
+use crate::scene::{failed, quoted, read_one};
 use formats::{Feature, Model};
 use pgrx::Spi;
 use pgrx::spi::SpiHeapTupleData;
@@ -66,7 +66,7 @@ pub fn models(scene: &str, choice: &Choice) -> Vec<Row> {
 /// EPSG code of a scene, if it is known.
 pub fn srid(scene: &str) -> Option<i32> {
     let query = format!("SELECT srid FROM {}.scene_info", quoted(scene));
-    let srid = Spi::get_one::<i32>(&query).unwrap_or_else(|error| failed(&error));
+    let srid = read_one::<i32>(&query, &[]);
     srid.filter(|&srid| srid != 0)
 }
 

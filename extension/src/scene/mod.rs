@@ -18,11 +18,12 @@ pub use workers::Workers;
 
 use crate::error::Refusal;
 use pgrx::datum::DatumWithOid;
-use pgrx::{PgSqlErrorCode, Spi};
+use pgrx::{FromDatum, IntoDatum, PgSqlErrorCode, Spi};
 
 /// Raises an error unless `scene` is a scene of real tables.
 pub fn require(scene: &str) {
-    run("SELECT occlusion.require_scene($1)", &[scene.into()]);
+    let query = "SELECT true FROM occlusion.require_scene($1)";
+    read_one::<bool>(query, &[scene.into()]);
 }
 
 /// An argument that must be given.
@@ -41,6 +42,12 @@ pub fn run(statement: &str, arguments: &[DatumWithOid]) {
     if let Err(error) = Spi::run_with_args(statement, arguments) {
         failed(&error);
     }
+}
+
+/// The one value of a query that only reads: others take a transaction number, which a standby has none of.
+pub fn read_one<T: FromDatum + IntoDatum>(query: &str, arguments: &[DatumWithOid]) -> Option<T> {
+    let value = Spi::connect(|client| client.select(query, None, arguments)?.first().get_one::<T>());
+    value.unwrap_or_else(|error| failed(&error))
 }
 
 /// A number of rows as SQL has it.

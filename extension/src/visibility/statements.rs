@@ -1,7 +1,7 @@
 //! [`Statements`], what visibility queries read of one scene, each planned once a backend.
 
 use super::tables::{Tables, may, relation};
-use crate::scene::{failed, quoted};
+use crate::scene::{quoted, read_one};
 use crate::snapshot_read::Statement;
 use crate::types::Box3d;
 use pgrx::IntoDatum;
@@ -179,7 +179,6 @@ impl Statements {
 /// What a function of `sql/` has for a scene.
 fn written(function: &str, scene: &str) -> String {
     let query = format!("SELECT occlusion.{function}($1)");
-    let text = pgrx::Spi::get_one_with_args::<String>(&query, &[scene.into()]);
-    let text = text.unwrap_or_else(|error| failed(&error));
+    let text = read_one::<String>(&query, &[scene.into()]);
     text.unwrap_or_else(|| unreachable!("the statement of a scene is text"))
 }

@@ -54,7 +54,15 @@ fn main() {
     );
     for edge in EDGES {
         let cells: Vec<Box3d> = eyes.iter().map(|eye| cell(*eye, edge, &region)).collect();
-        let scene = CellScene::new(cell_tiles(&tiles));
+        let around = cell_tiles(&tiles);
+        let scene = |bounds: &Box3d| {
+            let is_near = |tile: &&Arc<CellTile>| {
+                let around = tile.tile().bounds();
+                around.is_some_and(|around| around.distance(bounds) <= range)
+            };
+            CellScene::new(around.iter().filter(is_near).cloned().collect())
+        };
+        let scenes: Vec<CellScene> = cells.iter().map(scene).collect();
         let mut solver = CellSolver::default();
         let is_open = |bounds: &Box3d| region.touches(bounds);
         let query = |bounds: &Box3d| CellQuery {
@@ -68,16 +76,17 @@ fn main() {
         let mut worst = 0.0_f64;
         for round in [0, 1] {
             let begun = Instant::now();
-            for bounds in &cells {
-                solver.solve(&scene, &query(bounds), &is_open, &|| false);
+            for (bounds, scene) in cells.iter().zip(&scenes) {
+                solver.solve(scene, &query(bounds), &is_open, &|| false);
             }
             seconds[round] = begun.elapsed().as_secs_f64();
         }
-        for bounds in &cells {
+        for (bounds, scene) in cells.iter().zip(&scenes) {
             let set: HashSet<_> = solver
-                .solve(&scene, &query(bounds), &is_open, &|| false)
+                .solve(scene, &query(bounds), &is_open, &|| false)
                 .unwrap_or_default()
                 .into_iter()
+                .map(|spot| scene.feature(spot).0)
                 .collect();
             solves += solver.solves;
             let is_eye = |eye: DVec3| region.touches(&Box3d::new(eye, eye)) && !scene.holds(eye);
@@ -121,7 +130,7 @@ fn from_points(
     range: f64,
     is_eye: &dyn Fn(DVec3) -> bool,
     tiles: &mut Tiles,
-) -> HashSet<(usize, usize)> {
+) -> HashSet<i64> {
     let mut solver = PointSolver::default();
     let mut seen = HashSet::new();
     let steps = (bounds.size().x / POINTS).round() as usize;
@@ -146,7 +155,11 @@ fn from_points(
             };
             let mut sightings = Vec::new();
             let Ok(()) = solver.solve(&query, tiles, &mut sightings);
-            seen.extend(sightings.iter().map(|s| (s.tile, s.feature)));
+            seen.extend(
+                sightings
+                    .iter()
+                    .map(|s| tiles.tiles[s.tile].feature(s.feature).0),
+            );
         }
     }
     seen

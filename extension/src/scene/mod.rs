@@ -46,7 +46,12 @@ pub fn run(statement: &str, arguments: &[DatumWithOid]) {
 
 /// The one value of a query that only reads: others take a transaction number, which a standby has none of.
 pub fn read_one<T: FromDatum + IntoDatum>(query: &str, arguments: &[DatumWithOid]) -> Option<T> {
-    let value = Spi::connect(|client| client.select(query, None, arguments)?.first().get_one::<T>());
+    let value = Spi::connect(|client| {
+        client
+            .select(query, None, arguments)?
+            .first()
+            .get_one::<T>()
+    });
     value.unwrap_or_else(|error| failed(&error))
 }
 

@@ -134,6 +134,16 @@ BEGIN;
 UPDATE regress_cells.feature SET attributes = '{"colour": "red"}' WHERE id = 7;
 SELECT pg_temp.known() = eyes AS t FROM at_first;
 ROLLBACK;
+-- Sets name features by their slots: one that is given anew counts, one that is given first does not.
+BEGIN;
+UPDATE regress_cells.feature SET slot = 1000 WHERE id = 7;
+SELECT pg_temp.known();
+ROLLBACK;
+BEGIN;
+INSERT INTO regress_cells.feature (id, class, envelope) VALUES (200, 'Tower', 'BOX3D(3000 0 0, 3010 10 90)');
+SELECT occlusion.assign_slots('regress_cells');
+SELECT pg_temp.known() = eyes AS t, (SELECT count(*) FROM regress_cells.change) FROM at_first;
+ROLLBACK;
 -- Snapshots of another cluster mean nothing.
 BEGIN;
 UPDATE regress_cells.view_cell SET cluster = cluster + 1;
@@ -175,6 +185,13 @@ SET ROLE regress_cells_reader;
 SELECT occlusion.visible_set('regress_cells', 'POINT(50 -10 1.75)');
 \echo :SQLSTATE
 RESET ROLE;
+
+-- Where edits would go unnoticed, none are computed, and none are in use.
+CREATE TABLE public.more_streets () INHERITS (regress_cells.street);
+SELECT count(*) FROM occlusion.visible_set('regress_cells', 'POINT(50 -10 1.75)');
+CALL occlusion.generate_view_cells('regress_cells');
+\echo :SQLSTATE
+DROP TABLE public.more_streets;
 
 SELECT occlusion.drop_scene('regress_cells');
 DROP OWNED BY regress_cells_reader;

@@ -49,6 +49,8 @@ fn generate_view_cells(
     let mut procedure = Procedure::begin(fcinfo, TASK);
     require_latest();
     run("SELECT occlusion.require_all_cells($1)", &[scene.into()]);
+    let mut surroundings = Surroundings::new(scene, settings::generate_bytes());
+    surroundings.require_log();
     let job = Job::new(scene, TASK);
     let blocks = Blocks(quoted(scene));
     if blocks.left(&asked) {
@@ -59,8 +61,6 @@ fn generate_view_cells(
     procedure.commit();
 
     let workers = Workers::start();
-    let room = settings::generate_bytes();
-    let mut surroundings = Surroundings::new(scene, room);
     let begun = Instant::now();
     let mut told = 0;
     while let Some(block) = blocks.take() {
@@ -396,16 +396,19 @@ fn cover(
         precision: asked.finest,
     };
     let stop = || cancelled.load(Ordering::Relaxed);
-    let count = (block.area.size().x / asked.largest).round() as usize;
-    let corner = |at: usize| {
-        let place = DVec3::new((at % count) as f64, (at / count) as f64, 0.0);
-        block.area.min + place * asked.largest
+    let engine::Box3d { min, max } = block.area;
+    let count = ((max.x - min.x) / asked.largest).round() as usize;
+    // Neighbours have the same bits where they meet, and the last one ends where the block does.
+    let place = |axis: usize, at: usize| match at == count {
+        true => max[axis],
+        false => min[axis] + at as f64 * asked.largest,
     };
-    let edge = DVec3::new(asked.largest, asked.largest, 0.0);
+    let corner = |x: usize, y: usize| DVec3::new(place(0, x), place(1, y), 0.0);
     (0..count * count)
         .into_par_iter()
         .map_init(CellSolver::default, |solver, at| {
-            let square = engine::Box3d::new(corner(at), corner(at) + edge);
+            let (x, y) = (at % count, at / count);
+            let square = engine::Box3d::new(corner(x, y), corner(x + 1, y + 1));
             solver.cover(around, region, &square, &options, &stop)
         })
         .flatten_iter()

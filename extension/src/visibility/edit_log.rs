@@ -83,7 +83,10 @@ impl Event {
             let places = rows.filter_map(|row| self.value::<Box3d>(row, c"envelope"));
             places.for_each(|place| log.add_street(&place));
         } else if self.is_of(c"feature") {
-            if self.operation == pg_sys::TRIGGER_EVENT_UPDATE && self.keeps_feature(row, new) {
+            if self.operation == pg_sys::TRIGGER_EVENT_UPDATE
+                && self.keeps_feature(row, new)
+                && (log.kind == Kind::Tiles || self.keeps_slot(row, new))
+            {
                 return;
             }
             // Before the fact it is not known whether it comes to be.
@@ -147,6 +150,12 @@ impl Event {
             )
         };
         held(old) == held(new)
+    }
+
+    /// Whether an update leaves a slot that was given: sets of view cells name features by it.
+    fn keeps_slot(&self, old: pg_sys::HeapTuple, new: pg_sys::HeapTuple) -> bool {
+        let slot = |row| self.value::<i32>(row, c"slot");
+        slot(old).is_none() || slot(old) == slot(new)
     }
 
     /// The value of a column; `None` if it is null, or there is no such column of that type.

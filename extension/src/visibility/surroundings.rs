@@ -5,13 +5,13 @@ use super::cache::Version;
 use super::packed_tile::PackedTile;
 use super::statements::{Ask, Statements};
 use super::tables::Tables;
-use crate::error::or_raise;
+use crate::error::{Refusal, or_raise};
 use crate::snapshot_read::Moment;
 use crate::types::Box3d;
 use engine::{CellTile, Tile, TileFeature, neighbourhoods};
 use lru::LruCache;
 use pgrx::pg_sys::Datum;
-use pgrx::{IntoDatum, Uuid};
+use pgrx::{IntoDatum, PgSqlErrorCode, Uuid};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -38,6 +38,22 @@ impl Surroundings {
             kept: LruCache::unbounded(),
             room,
         }
+    }
+
+    /// Raises an error where edits would go unnoticed.
+    pub fn require_log(&self) {
+        if Tables::of(&self.scene).are_changes_logged() {
+            return;
+        }
+        Refusal::new(
+            PgSqlErrorCode::ERRCODE_FEATURE_NOT_SUPPORTED,
+            format!(
+                "scene \"{}\" has partitioned or inherited tables",
+                self.scene
+            ),
+        )
+        .detail("Their parts can be edited unnoticed, so view cells would never be in use.")
+        .raise()
     }
 
     /// All features that meet a box.

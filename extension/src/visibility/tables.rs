@@ -165,15 +165,17 @@ impl Tables {
     /// Whether there may be view cells that may be relied on: every change is logged, and no row security
     /// keeps features, cells or changes from the current user.
     pub fn has_cells(&self) -> bool {
-        let street = relation(self.namespace, c"street");
-        let feature = relation(self.namespace, c"feature");
+        let sources = SOURCES.into_iter().chain([c"street"]);
+        let read = sources.map(|name| relation(self.namespace, name));
         self.can_have_cells()
             && has_pages(self.view_cell)
-            && self.are_watched()
-            && opened(street, is_watched)
-            && [feature, street, self.view_cell, self.change]
-                .into_iter()
-                .all(sees_all_rows)
+            && self.are_changes_logged()
+            && read.chain([self.view_cell, self.change]).all(sees_all_rows)
+    }
+
+    /// Whether all that view cells rest on is written to the log of changes.
+    pub fn are_changes_logged(&self) -> bool {
+        self.are_watched() && opened(relation(self.namespace, c"street"), is_watched)
     }
 
     /// Whether every edit is written to the log.

@@ -146,7 +146,7 @@ BEGIN
             USING ERRCODE = 'object_not_in_prerequisite_state',
                   HINT = format('An older version made it: SELECT occlusion.upgrade_scene(%L) adds them.', scene);
     END IF;
-    FOREACH source IN ARRAY ARRAY['feature', 'view_cell', 'change'] LOOP
+    FOREACH source IN ARRAY ARRAY['feature', 'street', 'view_cell', 'change'] LOOP
         IF row_security_active(format('%I.%I', scene, source)) THEN
             RAISE EXCEPTION 'row security hides rows of %.%', quote_ident(scene), source
                 USING ERRCODE = 'insufficient_privilege',

@@ -11,7 +11,7 @@ use crate::SolidColumn;
 
 /// Metres by which more is taken away than was asked for, in plan and from above. It covers the
 /// roundings of polygon overlays, which are made on a grid of a billionth of their extent.
-pub const EROSION_MARGIN: f64 = 1e-3;
+const EROSION_MARGIN: f64 = 1e-3;
 
 /// Columns that reach farther than this in plan, metres, are not eroded but left out: the grid of an
 /// overlay would be too coarse for [`EROSION_MARGIN`].

@@ -11,6 +11,5 @@ mod scene;
 mod solver;
 
 pub use cover::{CoverOptions, ViewCell};
-pub use erosion::EROSION_MARGIN;
 pub use scene::{CellScene, CellTile};
 pub use solver::{CellQuery, CellSolver};

@@ -50,6 +50,37 @@ fn rerun(scene: &mut TestScene) -> i64 {
 }
 
 #[test]
+fn view_cells_are_made_and_told_of() {
+    let mut scene = TestScene::new("generate cells");
+    let name = scene.name.clone();
+    scene.run(&format!(
+        "SELECT occlusion.generate_city('{name}', 'streets', 60, 1)"
+    ));
+    let run = occlusion(&[
+        "generate", &name, "--cells", "--range", "60", "--finest", "1",
+    ])
+    .expect(0);
+    let cells = scene.number("SELECT count(*) FROM {s}.view_cell");
+    assert!(cells > 10);
+    assert!(
+        run.stdout
+            .contains(&format!("generated {cells} view cells of {name} in ")),
+        "{}",
+        run.stdout
+    );
+    let refused = occlusion(&["generate", &name, "--cells", "--smallest", "20"]).expect(3);
+    assert!(
+        refused
+            .stderr
+            .contains("smallest 20 is larger than largest 16"),
+        "{}",
+        refused.stderr
+    );
+    occlusion(&["generate", &name, "--finest", "1"]).expect(2);
+    occlusion(&["generate", &name, "--cells", "--worth", "1"]).expect(2);
+}
+
+#[test]
 fn a_cancelled_call_ends_at_once_and_can_be_repeated() {
     let mut scene = busy("cancelled");
     let name = scene.name.clone();

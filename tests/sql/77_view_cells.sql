@@ -186,6 +186,15 @@ SELECT occlusion.visible_set('regress_cells', 'POINT(50 -10 1.75)');
 \echo :SQLSTATE
 RESET ROLE;
 
+-- The log is kept as long as there are cells, whatever becomes of the squares.
+DELETE FROM regress_cells.view_cell_block;
+VACUUM regress_cells.view_cell_block;
+BEGIN;
+SELECT pg_temp.known() = eyes AS t FROM at_first;
+DELETE FROM regress_cells.feature WHERE id = 9;
+SELECT pg_temp.known();
+ROLLBACK;
+
 -- Where edits would go unnoticed, none are computed, and none are in use.
 CREATE TABLE public.more_streets () INHERITS (regress_cells.street);
 SELECT count(*) FROM occlusion.visible_set('regress_cells', 'POINT(50 -10 1.75)');

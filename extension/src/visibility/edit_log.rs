@@ -211,11 +211,19 @@ enum Kind {
 }
 
 impl Kind {
-    /// The log, and a table without which nobody reads it: where it never had a row.
-    fn tables(self) -> [&'static CStr; 2] {
+    /// The log.
+    fn log(self) -> &'static CStr {
         match self {
-            Self::Tiles => [c"edit", c"tile"],
-            Self::Cells => [c"change", c"view_cell_block"],
+            Self::Tiles => c"edit",
+            Self::Cells => c"change",
+        }
+    }
+
+    /// What is derived: as long as none of these tables has had a row, nobody reads the log.
+    fn derived(self) -> &'static [&'static CStr] {
+        match self {
+            Self::Tiles => &[c"tile"],
+            Self::Cells => &[c"view_cell_block", c"view_cell"],
         }
     }
 }
@@ -229,9 +237,13 @@ impl Log {
         let namespace = unsafe { (*(*table).rd_rel).relnamespace };
         let kinds = [Kind::Tiles, Kind::Cells].into_iter();
         kinds.filter_map(move |kind| {
-            let [log, derived] = kind.tables().map(|name| relation(namespace, name));
-            let is_scene = log != pg_sys::InvalidOid && derived != pg_sys::InvalidOid;
-            if !is_scene || (kind == Kind::Tiles && is_street) || !has_pages(derived) {
+            let table = relation(namespace, kind.log());
+            let has_rows = |name: &&CStr| {
+                let derived = relation(namespace, name);
+                derived != pg_sys::InvalidOid && has_pages(derived)
+            };
+            let is_read = table != pg_sys::InvalidOid && kind.derived().iter().any(has_rows);
+            if !is_read || (kind == Kind::Tiles && is_street) {
                 return None;
             }
             // SAFETY: the schema of an open relation has a name.
@@ -239,7 +251,7 @@ impl Log {
             Some(Self {
                 scene: scene.to_string_lossy().into_owned(),
                 kind,
-                table: log,
+                table,
             })
         })
     }

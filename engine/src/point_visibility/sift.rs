@@ -10,8 +10,9 @@ use super::target::outline_slopes;
 use super::tile::Tile;
 use crate::Box3d;
 
-/// Relative slack on the range, for the roundings of a distance.
-const RANGE_MARGIN: f64 = 1e-12;
+/// Slack on the range, metres: for the roundings of a distance, and for who takes an eye to be in the box
+/// that is a little beside it, as PostgreSQL's polygons do by a micrometre.
+const RANGE_MARGIN: f64 = 1e-3;
 
 /// A feature, by the position of its tile and its own in there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -140,7 +141,7 @@ struct Sifter<'a, K, F> {
 
 impl<K, F> Sifter<'_, K, F> {
     fn is_in_range(&self, bounds: &Box3d) -> bool {
-        bounds.distance(&self.sifting.near) <= self.sifting.range * (1.0 + RANGE_MARGIN)
+        bounds.distance(&self.sifting.near) <= self.sifting.range + RANGE_MARGIN
     }
 }
 

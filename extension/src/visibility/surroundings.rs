@@ -122,19 +122,20 @@ impl Surroundings {
 
 /// Ids and versions of the tiles that meet a box; `None` if there are none, or something was edited since
 /// they were packed.
+///
+/// The log is read first: what was edited before is in it, or in the tiles that are found afterwards. The
+/// other way round, an edit that is packed in between would be in neither.
 fn unedited(statements: &Rc<Statements>, bounds: &engine::Box3d) -> Option<Vec<(i64, Version)>> {
     let bounds = argument(Box3d(*bounds));
-    let mut heads = Vec::new();
-    statements
-        .get(Ask::Tiles)
-        .read(Moment::Now, &bounds, |row| {
-            let version = row.get::<Uuid>(3).map(|uuid| *uuid.as_bytes());
-            heads.extend(row.get::<i64>(1).zip(version));
-        });
     let mut is_edited = false;
-    statements
-        .get(Ask::Edits)
-        .read(Moment::Now, &bounds, |_| is_edited = true);
+    let edits = statements.get(Ask::Edits);
+    edits.read(Moment::Now, &bounds, |_| is_edited = true);
+    let mut heads = Vec::new();
+    let tiles = statements.get(Ask::Tiles);
+    tiles.read(Moment::Now, &bounds, |row| {
+        let version = row.get::<Uuid>(3).map(|uuid| *uuid.as_bytes());
+        heads.extend(row.get::<i64>(1).zip(version));
+    });
     (!is_edited && !heads.is_empty()).then_some(heads)
 }
 

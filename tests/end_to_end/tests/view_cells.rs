@@ -163,6 +163,45 @@ fn edits_while_cells_are_computed_are_never_overlooked() {
 }
 
 #[test]
+fn an_edit_that_is_packed_while_a_square_is_begun_is_not_overlooked() {
+    let mut scene = town("cells_packed", 400);
+    let work = thread::spawn({
+        let call = call(&scene.name);
+        move || client().batch_execute(&call)
+    });
+    let began = Instant::now();
+    // Half of the squares, so that all tiles are known to the session.
+    while scene.number(DONE) <= scene.number(LEFT) && began.elapsed() < Duration::from_secs(120) {
+        thread::sleep(Duration::from_millis(5));
+    }
+    // All are still there, and more of them are seen.
+    scene.run(
+        "DELETE FROM {s}.solid_column WHERE feature % 3 = 0;
+         DELETE FROM {s}.inner_envelope WHERE feature % 3 = 0",
+    );
+    // The next square waits for the log, and whatever was read of it before is out of date then.
+    let name = scene.name.clone();
+    scene.run(&format!(
+        "BEGIN; LOCK TABLE {{s}}.edit IN ACCESS EXCLUSIVE MODE; SELECT pg_sleep(1);
+         SELECT occlusion.pack_tiles('{name}'); COMMIT"
+    ));
+    work.join().expect("it ends").expect("it is done");
+    // What is in use is what comes out when all is computed from the tables as they are now.
+    scene.run(&format!(
+        "DO $$ BEGIN
+             EXECUTE 'CREATE TEMP TABLE in_use AS SELECT c.box, c.visible FROM {{s}}.view_cell AS c WHERE '
+                 || occlusion.valid_cell_condition('{name}');
+         END $$"
+    ));
+    let in_use = scene.number("SELECT count(*) FROM in_use");
+    assert!(in_use > 100, "{in_use} cells are in use");
+    scene.run(&call(&name));
+    let same = "SELECT count(*) FROM in_use AS u JOIN {s}.view_cell AS c
+                ON c.box::text = u.box::text AND c.visible::text = u.visible::text";
+    assert_eq!(scene.number(same), in_use);
+}
+
+#[test]
 fn every_eye_of_the_streets_is_in_a_cell_and_sees_nothing_that_its_set_lacks() {
     let mut scene = town("cells_cover", 400);
     scene.run(&call(&scene.name));

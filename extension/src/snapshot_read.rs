@@ -4,7 +4,7 @@
 //! anything. What a query pieces together of several statements must be of one moment.
 
 use pgrx::pg_sys::{self, Datum};
-use pgrx::{FromDatum, PgSqlErrorCode};
+use pgrx::{FromDatum, IntoDatum, PgSqlErrorCode};
 use std::ffi::CString;
 
 use crate::error::Refusal;
@@ -119,6 +119,18 @@ impl Row {
             unsafe { pg_sys::SPI_getbinval(self.tuple, self.columns, column, &raw mut is_null) };
         (datum, is_null)
     }
+}
+
+/// The one argument of a statement.
+pub fn argument(value: impl IntoDatum) -> Vec<Datum> {
+    value.into_datum().into_iter().collect()
+}
+
+/// Whether each statement of the transaction sees what is committed by then.
+pub fn sees_the_latest() -> bool {
+    // SAFETY: a variable of the backend.
+    let level = unsafe { pg_sys::XactIsoLevel };
+    level < pg_sys::XACT_REPEATABLE_READ.cast_signed()
 }
 
 /// Runs `work` in an SPI connection of its own.

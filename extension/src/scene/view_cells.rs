@@ -10,6 +10,7 @@ use super::workers::Workers;
 use super::{failed, given, quoted, run, streets};
 use crate::error::Refusal;
 use crate::settings;
+use crate::snapshot_read::sees_the_latest;
 use crate::types::Box3d;
 use crate::visibility::Surroundings;
 use engine::{CellScene, CellSolver, CoverOptions, Street, ViewCell, ViewRegion, plan_key};
@@ -144,9 +145,7 @@ fn between(value: f64, name: &str, [least, most]: [f64; 2]) -> f64 {
 
 /// Raises an error where statements would not see what others commit meanwhile.
 fn require_latest() {
-    // SAFETY: a variable of the backend.
-    let level = unsafe { pg_sys::XactIsoLevel };
-    if level >= pg_sys::XACT_REPEATABLE_READ.cast_signed() {
+    if !sees_the_latest() {
         Refusal::new(
             PgSqlErrorCode::ERRCODE_INVALID_TRANSACTION_STATE,
             format!("{TASK} runs in transactions that are READ COMMITTED"),

@@ -11,16 +11,16 @@ use super::statements::{Ask, Statements};
 use super::tables::Tables;
 use crate::error::{Refusal, or_raise};
 use crate::scene::{count, failed, quoted, run};
-use crate::snapshot_read::Moment;
+use crate::snapshot_read::{Moment, sees_the_latest};
 use crate::types::Box3d;
 use engine::neighbourhoods;
 use pgrx::datum::DatumWithOid;
-use pgrx::{IntoDatum, PgSqlErrorCode, Spi, check_for_interrupts, notice, pg_extern, pg_sys};
+use pgrx::{IntoDatum, PgSqlErrorCode, Spi, check_for_interrupts, notice, pg_extern};
 use std::collections::HashSet;
 use std::rc::Rc;
 
 /// Features of one tile, at the most. A tile is read whole, and each tile in range has a box to be tested.
-const MOST_FEATURES: usize = 64;
+pub const MOST_FEATURES: usize = 64;
 
 /// Corners of the columns of one tile, at the most; a single feature may have more. It bounds what a
 /// query reads to look at one feature.
@@ -289,11 +289,4 @@ fn parts(features: Vec<BaseFeature>) -> Vec<Vec<BaseFeature>> {
             .collect()
     };
     groups.into_iter().map(&mut taken).collect()
-}
-
-/// Whether each statement of the transaction sees what is committed by then.
-fn sees_the_latest() -> bool {
-    // SAFETY: a variable of the backend.
-    let level = unsafe { pg_sys::XactIsoLevel };
-    level < pg_sys::XACT_REPEATABLE_READ.cast_signed()
 }

@@ -2,25 +2,22 @@
 
 use super::base;
 use super::cache::Version;
+use super::pack::MOST_FEATURES;
 use super::packed_tile::PackedTile;
 use super::statements::{Ask, Statements};
 use super::tables::Tables;
 use crate::error::{Refusal, or_raise};
-use crate::snapshot_read::Moment;
+use crate::snapshot_read::{Moment, argument};
 use crate::types::Box3d;
 use engine::{CellTile, Tile, TileFeature, neighbourhoods};
 use lru::LruCache;
-use pgrx::pg_sys::Datum;
-use pgrx::{IntoDatum, PgSqlErrorCode, Uuid};
+use pgrx::{PgSqlErrorCode, Uuid};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 use std::sync::Arc;
 
 /// Bytes that a corner of an eroded tile takes, or a few more.
 const CORNER: usize = 32;
-
-/// Features of a tile that is made here, at the most.
-const MOST_FEATURES: usize = 64;
 
 /// The tiles of a scene as they are now, with what is left of them after erosions. They are kept from one
 /// part of the scene to the next, those that were used last longest.
@@ -148,8 +145,4 @@ fn tiles(features: Vec<TileFeature>) -> Vec<Arc<CellTile>> {
     };
     let groups = neighbourhoods(&boxes, |_| 1, MOST_FEATURES);
     groups.into_iter().map(tile).collect()
-}
-
-fn argument(value: impl IntoDatum) -> Vec<Datum> {
-    value.into_datum().into_iter().collect()
 }

@@ -8,12 +8,11 @@ use super::statements::{Ask, Statements};
 use super::tables::Tables as SceneTables;
 use crate::error::Refusal;
 use crate::settings;
-use crate::snapshot_read::Moment;
+use crate::snapshot_read::{Moment, argument};
 use crate::types::{Box3d, Point3d};
 use engine::{Sighting, Tile, TileSource};
 use glam::DVec3;
-use pgrx::pg_sys::Datum;
-use pgrx::{IntoDatum, PgSqlErrorCode, Uuid, check_for_interrupts};
+use pgrx::{PgSqlErrorCode, Uuid, check_for_interrupts};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
@@ -187,8 +186,4 @@ impl TileSource for Tiles {
     fn is_outdated(&self, tile: usize, feature: i64) -> bool {
         tile < self.packed.len() && !self.edited.is_empty() && self.edited.contains(&feature)
     }
-}
-
-fn argument(value: impl IntoDatum) -> Vec<Datum> {
-    value.into_datum().into_iter().collect()
 }

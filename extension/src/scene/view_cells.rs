@@ -176,9 +176,7 @@ impl Blocks {
             &[],
         );
         let query = format!(
-            "SELECT EXISTS (SELECT FROM {}.view_cell_block WHERE NOT done \
-                 AND range OPERATOR(pg_catalog.=) $1 AND smallest OPERATOR(pg_catalog.=) $2 \
-                 AND largest OPERATOR(pg_catalog.=) $3 AND finest OPERATOR(pg_catalog.=) $4)",
+            "SELECT EXISTS (SELECT FROM {}.view_cell_block WHERE NOT done AND {IS_ASKED})",
             self.0
         );
         one(&query, &asked.arguments()).unwrap_or(false)
@@ -212,12 +210,10 @@ impl Blocks {
             column(|square| square.max.y).into(),
         ];
         let arguments: Vec<DatumWithOid> = asked.arguments().into_iter().chain(corners).collect();
-        let kind = "range OPERATOR(pg_catalog.=) $1 AND smallest OPERATOR(pg_catalog.=) $2 \
-                    AND largest OPERATOR(pg_catalog.=) $3 AND finest OPERATOR(pg_catalog.=) $4";
         run(
             &format!(
                 "DELETE FROM {0}.view_cell \
-                 WHERE NOT EXISTS (SELECT FROM {0}.view_cell_block WHERE {kind})",
+                 WHERE NOT EXISTS (SELECT FROM {0}.view_cell_block WHERE {IS_ASKED})",
                 self.0
             ),
             &asked.arguments(),
@@ -373,13 +369,13 @@ impl Blocks {
 }
 
 /// That a cell c lies in a block b.
-const LIES_IN: &str = "c.box OPERATOR(occlusion.&&) occlusion.box3d( \
-         occlusion.point3d(occlusion.x(occlusion.lower(b.area)), occlusion.y(occlusion.lower(b.area)), -1e300), \
-         occlusion.point3d(occlusion.x(occlusion.upper(b.area)), occlusion.y(occlusion.upper(b.area)), 1e300)) \
-     AND occlusion.x(occlusion.lower(c.box)) OPERATOR(pg_catalog.>=) occlusion.x(occlusion.lower(b.area)) \
-     AND occlusion.x(occlusion.upper(c.box)) OPERATOR(pg_catalog.<=) occlusion.x(occlusion.upper(b.area)) \
-     AND occlusion.y(occlusion.lower(c.box)) OPERATOR(pg_catalog.>=) occlusion.y(occlusion.lower(b.area)) \
-     AND occlusion.y(occlusion.upper(c.box)) OPERATOR(pg_catalog.<=) occlusion.y(occlusion.upper(b.area))";
+const LIES_IN: &str = "c.box OPERATOR(occlusion.<@) occlusion.box3d( \
+    occlusion.point3d(occlusion.x(occlusion.lower(b.area)), occlusion.y(occlusion.lower(b.area)), -1e300), \
+    occlusion.point3d(occlusion.x(occlusion.upper(b.area)), occlusion.y(occlusion.upper(b.area)), 1e300))";
+
+/// That a block is of the kind that the first four arguments ask for.
+const IS_ASKED: &str = "range OPERATOR(pg_catalog.=) $1 AND smallest OPERATOR(pg_catalog.=) $2 \
+    AND largest OPERATOR(pg_catalog.=) $3 AND finest OPERATOR(pg_catalog.=) $4";
 
 /// The cells of a square; an incomplete answer only where the work is cancelled.
 fn cover(

@@ -12,10 +12,11 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use engine::{
-    Box3d, CellQuery, CellScene, CellSolver, CellTile, PointQuery, PointSolver, ViewRegion,
+    Box3d, CellQuery, CellScene, CellSolver, CellTile, PointQuery, PointSolver, Surface,
+    SurfaceTile, Surfaces, ViewRegion, neighbourhoods,
 };
 use glam::{DVec2, DVec3};
-use tiled_city::{Tiles, tiles};
+use tiled_city::{Tiles, Whole, tiles};
 
 /// Cells of each size.
 const CELLS: usize = 40;
@@ -36,7 +37,12 @@ fn main() {
             .map_or(usual, |text| text.parse().expect("a number"))
     };
     let city = arguments.first().map_or("streets", String::as_str);
-    let (mut features, streets) = tiled_city::city(city, number(1, 20_000.0) as usize);
+    let Whole {
+        mut features,
+        surfaces,
+        streets,
+    } = tiled_city::city(city, number(1, 20_000.0) as usize);
+    let surfaces = surface_tiles(surfaces);
     // Ridges are not eroded, so that points are to see past columns alone.
     for roof in features
         .iter_mut()
@@ -63,6 +69,13 @@ fn main() {
             CellScene::new(around.iter().filter(is_near).cloned().collect())
         };
         let scenes: Vec<CellScene> = cells.iter().map(scene).collect();
+        let surfaces = |bounds: &Box3d| {
+            let is_near = |tile: &&Arc<SurfaceTile>| {
+                let around = tile.bounds();
+                around.is_some_and(|around| around.distance(bounds) <= range)
+            };
+            Surfaces::new(surfaces.iter().filter(is_near).cloned().collect())
+        };
         let mut solver = CellSolver::default();
         let is_open = |bounds: &Box3d| region.touches(bounds);
         let query = |bounds: &Box3d| CellQuery {
@@ -73,6 +86,7 @@ fn main() {
         // The first round pays for erosions.
         let mut seconds = [0.0; 2];
         let (mut held, mut seen, mut beyond, mut solves) = (0, 0, 0, 0);
+        let (mut proven, mut proving) = (0, 0.0);
         let mut worst = 0.0_f64;
         for round in [0, 1] {
             let begun = Instant::now();
@@ -82,13 +96,19 @@ fn main() {
             seconds[round] = begun.elapsed().as_secs_f64();
         }
         for (bounds, scene) in cells.iter().zip(&scenes) {
-            let set: HashSet<_> = solver
+            let visible = solver
                 .solve(scene, &query(bounds), &is_open, &|| false)
-                .unwrap_or_default()
+                .unwrap_or_default();
+            solves += solver.solves;
+            let surfaces = surfaces(bounds);
+            let begun = Instant::now();
+            let witnesses = solver.prove(scene, &surfaces, &query(bounds), &visible, &is_open);
+            proving += begun.elapsed().as_secs_f64();
+            proven += witnesses.iter().flatten().count();
+            let set: HashSet<_> = visible
                 .into_iter()
                 .map(|spot| scene.feature(spot).0)
                 .collect();
-            solves += solver.solves;
             let is_eye = |eye: DVec3| region.touches(&Box3d::new(eye, eye)) && !scene.holds(eye);
             let points = from_points(bounds, range, &is_eye, &mut tiles);
             held += set.len();
@@ -99,15 +119,33 @@ fn main() {
         let count = cells.len() as f64;
         println!(
             "{edge} m: {:.1} ms a cell, {:.1} ms with erosion, {:.0} solves, {:.1} held, {:.1} by points: \
-             {:.3}, at worst {worst:.3}; {beyond} by points alone",
+             {:.3}, at worst {worst:.3}; {beyond} by points alone; {:.3} proven in {:.1} ms",
             seconds[1] / count * 1e3,
             seconds[0] / count * 1e3,
             solves as f64 / count,
             held as f64 / count,
             seen as f64 / count,
-            held as f64 / seen as f64
+            held as f64 / seen as f64,
+            proven as f64 / held as f64,
+            proving / count * 1e3,
         );
     }
+}
+
+/// Surfaces by neighbourhood.
+fn surface_tiles(surfaces: Vec<Surface>) -> Vec<Arc<SurfaceTile>> {
+    let surface_box =
+        |surface: &Surface| Box3d::around(surface.triangles.iter().flatten().copied());
+    let boxes: Vec<Box3d> = surfaces
+        .iter()
+        .map(|surface| surface_box(surface).expect("a triangle"))
+        .collect();
+    let tile = |group: Vec<usize>| {
+        let members = group.iter().map(|&at| surfaces[at].clone());
+        Arc::new(SurfaceTile::new(members))
+    };
+    let groups = neighbourhoods(&boxes, |_| 1, tiled_city::MOST);
+    groups.into_iter().map(tile).collect()
 }
 
 fn cell_tiles(tiles: &Tiles) -> Vec<Arc<CellTile>> {

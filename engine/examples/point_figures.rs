@@ -16,7 +16,7 @@ use engine::{
     TileFeature,
 };
 use glam::{DVec2, DVec3};
-use tiled_city::{Tiles, tiles};
+use tiled_city::{Tiles, Whole, tiles};
 
 /// Observers that are timed, and how often the whole round is.
 const EYES: usize = 1000;
@@ -34,7 +34,9 @@ fn main() {
             .map_or(usual, |text| text.parse().expect("a number"))
     };
     let city = arguments.first().map_or("streets", String::as_str);
-    let (features, streets) = tiled_city::city(city, number(1, 100_000.0) as usize);
+    let Whole {
+        features, streets, ..
+    } = tiled_city::city(city, number(1, 100_000.0) as usize);
     let range = number(2, 500.0);
     let mut eyes = real_city::eyes(&streets, EYES);
     let height = number(3, 0.0);

@@ -29,6 +29,7 @@ mod umbra;
 mod view_cells;
 mod view_region;
 mod volumes;
+mod witnesses;
 
 pub use box_relation::{BoxRange, BoxRelation};
 pub use box_split::{BoxCell, BoxSplit};
@@ -58,9 +59,10 @@ pub use solid::{Hides, Repair, Solid};
 pub use solid_column::SolidColumn;
 pub use statistics::BoxStatistics;
 pub use umbra::{OCCLUDER_MARGIN, Occluder, ShadowCaster};
-pub use view_cells::{CellQuery, CellScene, CellSolver, CellTile, CoverOptions, ViewCell};
+pub use view_cells::{CellQuery, CellScene, CellSolver, CellTile, CoverOptions, ViewCell, witness};
 pub use view_region::{
     LocalGround, Site, Street, ViewRegion, ViewRegionOptions, covers_ground, footprint,
     is_building, open_space, streets_from_surfaces, without_footprints,
 };
 pub use volumes::{Block, OcclusionVolume, VolumeOptions, VolumeSolver};
+pub use witnesses::{Sought, Surface, SurfaceTile, Surfaces, Witness};

@@ -1,8 +1,8 @@
 //! A city, generated or real, in tiles as visibility is found from.
 
 use engine::{
-    Box3d, CityLayout, LocalGround, OuterPrism, Roof, Site, Street, Tile, TileFeature, TileSource,
-    ViewRegionOptions, generated_city, neighbourhoods, open_space,
+    Box3d, CityLayout, LocalGround, OuterPrism, Roof, Site, Street, Surface, Tile, TileFeature,
+    TileSource, TriangleMesh, ViewRegionOptions, generated_city, neighbourhoods, open_space,
 };
 use formats::{ReadOptions, read_bytes};
 use glam::{DVec2, DVec3};
@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3};
 use crate::real_city::{House, columns};
 
 /// Features of one tile, at the most.
-const MOST: usize = 64;
+pub const MOST: usize = 64;
 
 /// The features of a city in neighbourhoods.
 pub struct Tiles {
@@ -46,15 +46,29 @@ pub fn tiles(features: &[TileFeature]) -> Tiles {
     }
 }
 
-/// The features and streets of a file, or of "streets" with so many houses.
-pub fn city(name: &str, count: usize) -> (Vec<TileFeature>, Vec<Street>) {
+/// A city before it is divided.
+pub struct Whole {
+    pub features: Vec<TileFeature>,
+    pub surfaces: Vec<Surface>,
+    pub streets: Vec<Street>,
+}
+
+/// That of a file, or "streets" with so many houses.
+pub fn city(name: &str, count: usize) -> Whole {
     match name {
         "streets" => made(count),
         file => read(file),
     }
 }
 
-fn made(count: usize) -> (Vec<TileFeature>, Vec<Street>) {
+fn surface(mesh: &TriangleMesh, id: i64) -> Surface {
+    Surface {
+        id,
+        triangles: mesh.corners().collect(),
+    }
+}
+
+fn made(count: usize) -> Whole {
     let city = generated_city(CityLayout::Streets, count, 1);
     let features = city
         .features()
@@ -67,14 +81,20 @@ fn made(count: usize) -> (Vec<TileFeature>, Vec<Street>) {
             columns: vec![feature.column],
         })
         .collect();
-    (features, city.streets().collect())
+    let meshes = city.features().map(|feature| feature.mesh);
+    let surfaces = meshes.zip(0..).map(|(mesh, id)| surface(&mesh, id));
+    Whole {
+        features,
+        surfaces: surfaces.collect(),
+        streets: city.streets().collect(),
+    }
 }
 
 fn outline(points: impl Iterator<Item = DVec3>) -> Vec<DVec2> {
     OuterPrism::around(points).map_or(Vec::new(), |prism| prism.hull)
 }
 
-fn read(file: &str) -> (Vec<TileFeature>, Vec<Street>) {
+fn read(file: &str) -> Whole {
     let bytes = std::fs::read(file).expect("a readable file");
     let scene = read_bytes(file, &bytes, &ReadOptions::default()).expect("a city model");
     let houses: Vec<House> = scene.features.iter().map(House::of).collect();
@@ -91,6 +111,12 @@ fn read(file: &str) -> (Vec<TileFeature>, Vec<Street>) {
             ground.holds(&house.envelope(), house.envelope().min.z),
         ),
     };
-    let features = houses.iter().zip(0..).map(feature).collect();
-    (features, open_space(&sites, &ViewRegionOptions::default()))
+    let surfaces = houses.iter().zip(0..);
+    Whole {
+        features: houses.iter().zip(0..).map(feature).collect(),
+        surfaces: surfaces
+            .map(|(house, id)| surface(&house.mesh, id))
+            .collect(),
+        streets: open_space(&sites, &ViewRegionOptions::default()),
+    }
 }

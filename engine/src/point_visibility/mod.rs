@@ -26,6 +26,7 @@ pub use neighbourhoods::neighbourhoods;
 pub(crate) use sift::{Known, Sifting, Spot};
 pub use solver::{PointQuery, PointSolver, Sighting, TileSource, visible_from_point};
 pub use tile::{Tile, TileFeature};
+pub(crate) use tree::Tree;
 
 /// How far from a solid an eye counts as within it, metres: that solid hides nothing then, and a
 /// wall so near has no usable direction.

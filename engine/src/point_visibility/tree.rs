@@ -12,7 +12,7 @@ pub const FANOUT: usize = 4;
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
     /// The root first; children of one node are neighbours.
-    pub(super) nodes: Vec<Node>,
+    pub nodes: Vec<Node>,
 }
 
 /// A node, or a leaf with one box.

@@ -7,9 +7,11 @@
 mod cover;
 mod crack;
 mod erosion;
+mod proof;
 mod scene;
 mod solver;
 
 pub use cover::{CoverOptions, ViewCell};
+pub use proof::witness;
 pub use scene::{CellScene, CellTile};
 pub use solver::{CellQuery, CellSolver};

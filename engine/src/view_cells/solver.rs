@@ -33,7 +33,7 @@ pub struct CellQuery {
 /// (`docs/how-it-works.md`, "From a view cell"). Its memory is kept from one cell to the next.
 #[derive(Debug, Default)]
 pub struct CellSolver {
-    points: PointSolver,
+    pub(super) points: PointSolver,
     seen: HashSet<Spot>,
     /// How many problems of a point were solved.
     pub solves: usize,

@@ -60,9 +60,11 @@ SET search_path = pg_catalog, pg_temp AS $$
         ('view_cell', 'box', 'occlusion.box3d'),
         ('view_cell', 'range', 'double precision'),
         ('view_cell', 'visible', 'occlusion.feature_set'),
+        ('view_cell', 'unproven', 'occlusion.feature_set'),
         ('view_cell', 'snapshot', 'pg_snapshot'),
         ('view_cell', 'cluster', 'bigint'),
         ('view_cell_block', 'area', 'occlusion.box3d'),
+        ('view_cell_block', 'visible', 'occlusion.feature_set'),
         ('change', 'feature', 'bigint'),
         ('change', 'place', 'occlusion.box3d'),
         ('change', 'transaction', 'xid8')

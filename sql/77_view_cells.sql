@@ -13,16 +13,17 @@ BEGIN
             box occlusion.box3d NOT NULL,
             range float8 NOT NULL CHECK (range > 0),
             visible occlusion.feature_set NOT NULL,
+            unproven occlusion.feature_set NOT NULL,
             snapshot pg_snapshot NOT NULL,
             cluster bigint NOT NULL
         );
         CREATE INDEX view_cell_box ON %1$I.view_cell USING gist (box);
-        CREATE INDEX view_cell_visible ON %1$I.view_cell USING gin (visible);
         COMMENT ON TABLE %1$I.view_cell IS 'what can be seen from anywhere in a box of the view region; derived';
         COMMENT ON COLUMN %1$I.view_cell.id IS 'number of the cell';
         COMMENT ON COLUMN %1$I.view_cell.box IS 'where eyes are, metres';
         COMMENT ON COLUMN %1$I.view_cell.range IS 'how far they see, metres';
         COMMENT ON COLUMN %1$I.view_cell.visible IS 'slots of the features that may be seen from somewhere in the box';
+        COMMENT ON COLUMN %1$I.view_cell.unproven IS 'those of them for which no witness was found';
         COMMENT ON COLUMN %1$I.view_cell.snapshot IS 'edits that this snapshot does not show are not in the set';
         COMMENT ON COLUMN %1$I.view_cell.cluster IS 'system identifier of the cluster whose transactions the snapshot is about';
 
@@ -33,9 +34,11 @@ BEGIN
             smallest float8 NOT NULL,
             largest float8 NOT NULL,
             finest float8 NOT NULL,
-            done boolean NOT NULL DEFAULT false
+            done boolean NOT NULL DEFAULT false,
+            visible occlusion.feature_set NOT NULL DEFAULT '{}'
         );
         CREATE INDEX view_cell_block_open ON %1$I.view_cell_block (id) WHERE NOT done;
+        CREATE INDEX view_cell_block_visible ON %1$I.view_cell_block USING gin (visible);
         COMMENT ON TABLE %1$I.view_cell_block IS 'squares of the view region, each covered with view cells in one transaction; derived';
         COMMENT ON COLUMN %1$I.view_cell_block.id IS 'number, along a curve through the plan';
         COMMENT ON COLUMN %1$I.view_cell_block.area IS 'the square, at height 0';
@@ -44,6 +47,7 @@ BEGIN
         COMMENT ON COLUMN %1$I.view_cell_block.largest IS 'longest edge of a cell, metres';
         COMMENT ON COLUMN %1$I.view_cell_block.finest IS 'half edge of the smallest parts of a cell that are told apart, metres';
         COMMENT ON COLUMN %1$I.view_cell_block.done IS 'whether its cells are there';
+        COMMENT ON COLUMN %1$I.view_cell_block.visible IS 'slots of the features that may be seen from one of its cells';
 
         CREATE TABLE %1$I.change (
             feature bigint,
@@ -93,6 +97,18 @@ SET search_path = pg_catalog, pg_temp AS $$
 $$;
 COMMENT ON FUNCTION occlusion.valid_cell_condition(text) IS
     'the condition that a view cell, c, holds what can be seen now';
+
+-- That a cell c lies in a block b.
+CREATE FUNCTION occlusion.cell_in_block_condition() RETURNS text
+LANGUAGE sql IMMUTABLE PARALLEL SAFE
+SET search_path = pg_catalog, pg_temp AS $$
+    SELECT $q$
+        c.box OPERATOR(occlusion.<@) occlusion.box3d(
+            occlusion.point3d(occlusion.x(occlusion.lower(b.area)), occlusion.y(occlusion.lower(b.area)), -1e300),
+            occlusion.point3d(occlusion.x(occlusion.upper(b.area)), occlusion.y(occlusion.upper(b.area)), 1e300))
+    $q$
+$$;
+COMMENT ON FUNCTION occlusion.cell_in_block_condition() IS 'the condition that a view cell, c, lies in a block, b';
 
 -- The cells that hold an eye, $1, in a cluster, $2, and are right; none where the eye is not in the view
 -- region, or within a millimetre of a solid.
@@ -160,7 +176,7 @@ COMMENT ON FUNCTION occlusion.require_all_cells(text) IS
     'raises an error unless the current user sees all features, view cells and changes of a scene';
 
 CREATE FUNCTION occlusion.visible_from(scene text, feature_id bigint)
-RETURNS TABLE (box occlusion.box3d, known boolean)
+RETURNS TABLE (box occlusion.box3d, proven boolean)
 LANGUAGE plpgsql STABLE STRICT PARALLEL SAFE COST 10000
 SET search_path = pg_catalog, pg_temp AS $$
 DECLARE
@@ -176,18 +192,56 @@ BEGIN
     END IF;
     -- Of a cell that may be out of date, nothing is known but how far one sees from it.
     RETURN QUERY EXECUTE format($q$
-        SELECT c.box, true FROM %1$I.view_cell AS c
-        WHERE c.visible OPERATOR(occlusion.@>) $1 AND c.cluster = $3 AND %2$s
+        SELECT c.box, NOT c.unproven OPERATOR(occlusion.@>) $1
+        FROM %1$I.view_cell_block AS b
+        JOIN %1$I.view_cell AS c ON %3$s
+        WHERE b.visible OPERATOR(occlusion.@>) $1 AND c.visible OPERATOR(occlusion.@>) $1
+          AND c.cluster = $3 AND %2$s
         UNION ALL
         SELECT c.box, false FROM %1$I.view_cell AS c
         WHERE c.box OPERATOR(occlusion.&&) occlusion.expand($2, c.range)
           AND (c.cluster <> $3 OR NOT (%2$s))
-    $q$, scene, occlusion.valid_cell_condition(scene))
+    $q$, scene, occlusion.valid_cell_condition(scene), occlusion.cell_in_block_condition())
     USING slot::bigint, envelope, occlusion.cluster_identity();
 END
 $$;
 COMMENT ON FUNCTION occlusion.visible_from(text, bigint) IS
-    'boxes of the streets from somewhere in which a feature may be seen; known: by a view cell that is right, and not because one near it is out of date';
+    'boxes of the streets from somewhere in which a feature may be seen; proven: there is a witness that it can';
+
+CREATE FUNCTION occlusion.view_cells(scene text)
+RETURNS TABLE (cell bigint, box occlusion.box3d, range float8, visible bigint, proven bigint, share float8)
+LANGUAGE plpgsql STABLE STRICT PARALLEL SAFE COST 100000
+SET search_path = pg_catalog, pg_temp AS $$
+BEGIN
+    PERFORM occlusion.require_all_cells(scene);
+    RETURN QUERY EXECUTE format($q$
+        SELECT c.id, c.box, c.range, n.visible, n.visible - n.unproven,
+               (n.visible - n.unproven)::float8 / nullif(n.visible, 0)
+        FROM %1$I.view_cell AS c
+        CROSS JOIN LATERAL (
+            SELECT occlusion.cardinality(c.visible), occlusion.cardinality(c.unproven)
+        ) AS n (visible, unproven)
+        WHERE c.cluster = $1 AND %2$s
+    $q$, scene, occlusion.valid_cell_condition(scene)) USING occlusion.cluster_identity();
+END
+$$;
+COMMENT ON FUNCTION occlusion.view_cells(text) IS
+    'the view cells that are right: how many features may be seen from each, of how many it is proven that they can, and what share that is';
+
+CREATE FUNCTION occlusion.proven_share(scene text) RETURNS float8
+LANGUAGE sql STABLE STRICT PARALLEL SAFE
+BEGIN ATOMIC
+    SELECT (sum(c.proven) / nullif(sum(c.visible), 0))::float8 FROM occlusion.view_cells(scene) AS c;
+END;
+COMMENT ON FUNCTION occlusion.proven_share(text) IS
+    'of all that may be seen from the view cells of a scene, the share that is proven; NULL where no cell is right';
+
+CREATE FUNCTION occlusion.witnesses(scene text, cell bigint)
+RETURNS TABLE (feature_id bigint, eye occlusion.point3d, target occlusion.point3d)
+LANGUAGE c VOLATILE STRICT ROWS 100 COST 100000
+AS 'MODULE_PATHNAME', 'witnesses_wrapper';
+COMMENT ON FUNCTION occlusion.witnesses(text, bigint) IS
+    'for each feature that is proven to be visible from a view cell: an eye in the cell, and the end of a line from there that crosses the surface of the feature and meets no other; NULL where none is found any more';
 
 CREATE FUNCTION occlusion.landmarks(scene text)
 RETURNS TABLE (feature_id bigint, class text, cells bigint, share float8)

@@ -102,7 +102,16 @@ fn main() {
             solves += solver.solves;
             let surfaces = surfaces(bounds);
             let begun = Instant::now();
-            let witnesses = solver.prove(scene, &surfaces, &query(bounds), &visible, &is_open);
+            let witnesses = solver
+                .prove(
+                    scene,
+                    &surfaces,
+                    &query(bounds),
+                    &visible,
+                    &is_open,
+                    &|| false,
+                )
+                .expect("it is not cancelled");
             proving += begun.elapsed().as_secs_f64();
             proven += witnesses.iter().flatten().count();
             let set: HashSet<_> = visible

@@ -39,7 +39,8 @@ struct Round {
 
 impl CellSolver {
     /// The witnesses of those features of a visible set, by the positions of their tiles and their own, that
-    /// are proven to be visible from somewhere in the cell where an eye may be.
+    /// are proven to be visible from somewhere in the cell where an eye may be; `None` as soon as
+    /// `cancelled` says so.
     pub fn prove(
         &mut self,
         scene: &CellScene,
@@ -47,7 +48,8 @@ impl CellSolver {
         query: &CellQuery,
         visible: &[(usize, usize)],
         is_open: &dyn Fn(&Box3d) -> bool,
-    ) -> Vec<Option<Witness>> {
+        cancelled: &dyn Fn() -> bool,
+    ) -> Option<Vec<Option<Witness>>> {
         let within = reach(query);
         let tiles: Vec<usize> = (scene.len()..2 * scene.len()).collect();
         let mut stage = Stage::new(scene, None);
@@ -58,6 +60,9 @@ impl CellSolver {
             .map(|place| (spot(place), scene.feature(*place).1))
             .collect();
         for (eye, round) in looks(&query.bounds) {
+            if cancelled() {
+                return None;
+            }
             if open.is_empty() {
                 break;
             }
@@ -87,7 +92,7 @@ impl CellSolver {
                 }
             }
         }
-        witnesses
+        Some(witnesses)
     }
 }
 

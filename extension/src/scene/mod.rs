@@ -44,6 +44,11 @@ pub fn run(statement: &str, arguments: &[DatumWithOid]) {
     }
 }
 
+/// The streets of a scene that meet a box in plan, as the query sees them.
+pub fn near_streets(scene: &str, area: &engine::Box3d) -> Vec<engine::Street> {
+    streets::near(scene, crate::snapshot_read::Moment::Query, area)
+}
+
 /// The one value of a query that only reads: others take a transaction number, which a standby has none of.
 pub fn read_one<T: FromDatum + IntoDatum>(query: &str, arguments: &[DatumWithOid]) -> Option<T> {
     let value = Spi::connect(|client| {

@@ -2,24 +2,27 @@
 
 use super::{failed, polygon, quoted};
 use crate::error::Refusal;
+use crate::snapshot_read::Moment;
 use crate::types::Box3d;
 use engine::Street;
 use pgrx::datum::DatumWithOid;
+use pgrx::spi::SpiTupleTable;
 use pgrx::{PgSqlErrorCode, Spi};
 
 /// All streets of a scene.
 pub fn read(scene: &str) -> Vec<Street> {
-    read_where(scene, "true", &[])
+    read_where(scene, Moment::Now, "true", &[])
 }
 
-/// The streets of a scene that meet a box in plan, as they are now.
-pub fn near(scene: &str, area: &engine::Box3d) -> Vec<Street> {
+/// The streets of a scene that meet a box in plan.
+pub fn near(scene: &str, moment: Moment, area: &engine::Box3d) -> Vec<Street> {
     let upright = Box3d(engine::Box3d {
         min: area.min.with_z(f64::MIN),
         max: area.max.with_z(f64::MAX),
     });
     read_where(
         scene,
+        moment,
         "envelope OPERATOR(occlusion.&&) $1",
         &[upright.into()],
     )
@@ -37,24 +40,21 @@ pub fn refuse_none(scene: &str) -> ! {
     .raise()
 }
 
-fn read_where(scene: &str, condition: &str, arguments: &[DatumWithOid]) -> Vec<Street> {
+fn read_where(
+    scene: &str,
+    moment: Moment,
+    condition: &str,
+    arguments: &[DatumWithOid],
+) -> Vec<Street> {
     let query = format!(
         "SELECT area::pg_catalog.text[], eye_low, eye_high FROM {}.street WHERE {condition}",
         quoted(scene)
     );
-    // What is only read is seen as it was when the statement around began.
-    let rows = Spi::connect_mut(|client| {
-        client
-            .update(&query, None, arguments)?
-            .map(|row| {
-                Ok((
-                    row.get::<Vec<Option<String>>>(1)?.unwrap_or_default(),
-                    row.get::<f64>(2)?.unwrap_or_default(),
-                    row.get::<f64>(3)?.unwrap_or_default(),
-                ))
-            })
-            .collect::<Result<Vec<_>, pgrx::spi::Error>>()
-    });
+    let rows = match moment {
+        Moment::Query => Spi::connect(|client| columns(client.select(&query, None, arguments)?)),
+        // What is only read is seen as it was when the statement around began.
+        Moment::Now => Spi::connect_mut(|client| columns(client.update(&query, None, arguments)?)),
+    };
     rows.unwrap_or_else(|error| failed(&error))
         .into_iter()
         .map(|(rings, eye_low, eye_high)| {
@@ -76,6 +76,18 @@ fn read_where(scene: &str, condition: &str, arguments: &[DatumWithOid]) -> Vec<S
             }
         })
         .collect()
+}
+
+/// Rings, lowest and highest eye of some rows.
+fn columns(rows: SpiTupleTable) -> Result<Vec<(Vec<Option<String>>, f64, f64)>, pgrx::spi::Error> {
+    rows.map(|row| {
+        Ok((
+            row.get::<Vec<Option<String>>>(1)?.unwrap_or_default(),
+            row.get::<f64>(2)?.unwrap_or_default(),
+            row.get::<f64>(3)?.unwrap_or_default(),
+        ))
+    })
+    .collect()
 }
 
 /// Replaces all streets of a scene; returns how many there are now.

@@ -7,13 +7,13 @@
 use super::job::Job;
 use super::procedure::Procedure;
 use super::workers::Workers;
-use super::{failed, given, quoted, run, streets};
+use super::{failed, given, quoted, read_one, run, streets};
 use crate::error::Refusal;
 use crate::settings;
-use crate::snapshot_read::sees_the_latest;
+use crate::snapshot_read::{Moment, sees_the_latest};
 use crate::types::Box3d;
-use crate::visibility::Surroundings;
-use engine::{CellScene, CellSolver, CoverOptions, Street, ViewCell, ViewRegion, plan_key};
+use crate::visibility::{Around, Surroundings};
+use engine::{CellQuery, CellSolver, CoverOptions, Street, ViewCell, ViewRegion, plan_key};
 use geo::BoundingRect;
 use glam::DVec3;
 use pgrx::datum::DatumWithOid;
@@ -53,7 +53,7 @@ fn generate_view_cells(
     let mut surroundings = Surroundings::new(scene, settings::generate_bytes());
     surroundings.require_log();
     let job = Job::new(scene, TASK);
-    let blocks = Blocks(quoted(scene));
+    let blocks = Blocks::of(scene);
     if blocks.left(&asked) {
         notice!("going on where scene \"{scene}\" was left");
     } else {
@@ -155,8 +155,13 @@ fn require_latest() {
     }
 }
 
-/// The squares of a scene, whose name is quoted.
-struct Blocks(String);
+/// The squares of a scene.
+struct Blocks {
+    /// Its name, quoted.
+    scene: String,
+    /// That a cell c lies in a square b.
+    lies_in: String,
+}
 
 /// One that is locked.
 struct Block {
@@ -166,18 +171,35 @@ struct Block {
 }
 
 impl Blocks {
+    fn of(scene: &str) -> Self {
+        let lies_in = read_one::<String>("SELECT occlusion.cell_in_block_condition()", &[]);
+        Self {
+            scene: quoted(scene),
+            lies_in: lies_in.unwrap_or_else(|| unreachable!("a condition is text")),
+        }
+    }
+
+    /// What is seen from all cells of a square b.
+    fn seen_from(&self) -> String {
+        format!(
+            "coalesce((SELECT occlusion.feature_set_union(c.visible) FROM {}.view_cell AS c \
+             WHERE {}), '{{}}')",
+            self.scene, self.lies_in
+        )
+    }
+
     /// Locks the table against others who begin, not against those at work; whether there is work left of the same kind.
     fn left(&self, asked: &Asked) -> bool {
         run(
             &format!(
                 "LOCK TABLE {}.view_cell_block IN SHARE UPDATE EXCLUSIVE MODE",
-                self.0
+                self.scene
             ),
             &[],
         );
         let query = format!(
             "SELECT EXISTS (SELECT FROM {}.view_cell_block WHERE NOT done AND {IS_ASKED})",
-            self.0
+            self.scene
         );
         one(&query, &asked.arguments()).unwrap_or(false)
     }
@@ -186,7 +208,7 @@ impl Blocks {
     /// or where no street is any more.
     fn plan(&self, scene: &str, asked: &Asked, job: &Job) {
         let streets = streets::read(scene);
-        let query = format!("SELECT EXISTS (SELECT FROM {}.feature)", self.0);
+        let query = format!("SELECT EXISTS (SELECT FROM {}.feature)", self.scene);
         if streets.is_empty() && one(&query, &[]).unwrap_or(false) {
             streets::refuse_none(scene);
         }
@@ -196,7 +218,7 @@ impl Blocks {
             &format!(
                 "LOCK TABLE {0}.feature, {0}.solid_column, {0}.inner_envelope, {0}.mesh, {0}.street \
                  IN SHARE MODE",
-                self.0
+                self.scene
             ),
             &[],
         );
@@ -214,11 +236,11 @@ impl Blocks {
             &format!(
                 "DELETE FROM {0}.view_cell \
                  WHERE NOT EXISTS (SELECT FROM {0}.view_cell_block WHERE {IS_ASKED})",
-                self.0
+                self.scene
             ),
             &asked.arguments(),
         );
-        run(&format!("DELETE FROM {}.view_cell_block", self.0), &[]);
+        run(&format!("DELETE FROM {}.view_cell_block", self.scene), &[]);
         run(
             &format!(
                 "INSERT INTO {}.view_cell_block (id, area, range, smallest, largest, finest) \
@@ -227,7 +249,7 @@ impl Blocks {
                  FROM ROWS FROM (pg_catalog.unnest($5), pg_catalog.unnest($6), \
                                  pg_catalog.unnest($7), pg_catalog.unnest($8)) \
                       WITH ORDINALITY AS s (x0, y0, x1, y1, number)",
-                self.0
+                self.scene
             ),
             &arguments,
         );
@@ -235,7 +257,15 @@ impl Blocks {
             &format!(
                 "DELETE FROM {0}.view_cell AS c WHERE NOT EXISTS ( \
                      SELECT FROM {0}.view_cell_block AS b WHERE {1})",
-                self.0, LIES_IN
+                self.scene, self.lies_in
+            ),
+            &[],
+        );
+        run(
+            &format!(
+                "UPDATE {}.view_cell_block AS b SET visible = {}",
+                self.scene,
+                self.seen_from()
             ),
             &[],
         );
@@ -248,7 +278,7 @@ impl Blocks {
         let query = format!(
             "SELECT id, area, range, smallest, largest, finest FROM {}.view_cell_block \
              WHERE NOT done ORDER BY id LIMIT 1 FOR UPDATE SKIP LOCKED",
-            self.0
+            self.scene
         );
         let block = Spi::connect_mut(|client| {
             let row = client.update(&query, None, &[])?.first();
@@ -285,60 +315,73 @@ impl Blocks {
             "SELECT pg_catalog.pg_current_snapshot()::pg_catalog.text",
             &[],
         );
-        let region = ViewRegion::new(streets::near(scene, &block.area));
+        let region = ViewRegion::new(streets::near(scene, Moment::Now, &block.area));
         let reach = block.asked.range + RANGE_MARGIN;
         let near = region.filled(&block.area).map(|eyes| engine::Box3d {
             min: eyes.min - reach,
             max: eyes.max + reach,
         });
-        let tiles = near.map_or(Vec::new(), |near| surroundings.around(&near));
-        let around = CellScene::new(tiles);
-        let cells = workers.run(|cancelled| cover(&around, &region, block, cancelled));
+        let cells = near.map_or(Vec::new(), |near| {
+            let around = surroundings.around(&near);
+            workers.run(|cancelled| cover(&around, &region, block, cancelled))
+        });
         let ids: HashSet<i64> = cells
             .iter()
             .flat_map(|cell| &cell.visible)
-            .map(|&spot| around.feature(spot).0)
+            .copied()
             .collect();
         let slots = surroundings.slots(&ids);
         run(
             &format!(
                 "DELETE FROM {0}.view_cell AS c USING {0}.view_cell_block AS b \
                  WHERE b.id OPERATOR(pg_catalog.=) $1 AND {1}",
-                self.0, LIES_IN
+                self.scene, self.lies_in
             ),
             &[block.id.into()],
         );
         let mut made = 0;
         for cell in &cells {
-            let seen = cell.visible.iter().map(|&spot| around.feature(spot).0);
-            let seen: Option<Vec<i64>> = seen.map(|id| slots.get(&id).copied()).collect();
+            let of = |ids: &[i64]| -> Option<Vec<i64>> {
+                ids.iter().map(|id| slots.get(id).copied()).collect()
+            };
             // A feature that was added since has no slot: of what sees it, nothing is known yet.
-            let Some(seen) = seen else { continue };
-            self.insert(&cell.bounds, block.asked.range, seen, snapshot.as_deref());
+            let Some(sets) = of(&cell.visible).zip(of(&cell.unproven)) else {
+                continue;
+            };
+            self.insert(&cell.bounds, &block.asked, sets, snapshot.as_deref());
             made += 1;
         }
         run(
             &format!(
-                "UPDATE {}.view_cell_block SET done = true WHERE id OPERATOR(pg_catalog.=) $1",
-                self.0
+                "UPDATE {}.view_cell_block AS b SET done = true, visible = {} \
+                 WHERE id OPERATOR(pg_catalog.=) $1",
+                self.scene,
+                self.seen_from()
             ),
             &[block.id.into()],
         );
         made
     }
 
-    fn insert(&self, bounds: &engine::Box3d, range: f64, slots: Vec<i64>, snapshot: Option<&str>) {
+    fn insert(
+        &self,
+        bounds: &engine::Box3d,
+        asked: &Asked,
+        (visible, unproven): (Vec<i64>, Vec<i64>),
+        snapshot: Option<&str>,
+    ) {
         run(
             &format!(
-                "INSERT INTO {}.view_cell (box, range, visible, snapshot, cluster) \
-                 VALUES ($1, $2, $3::occlusion.feature_set, $4::pg_catalog.pg_snapshot, \
-                         occlusion.cluster_identity())",
-                self.0
+                "INSERT INTO {}.view_cell (box, range, visible, unproven, snapshot, cluster) \
+                 VALUES ($1, $2, $3::occlusion.feature_set, $4::occlusion.feature_set, \
+                         $5::pg_catalog.pg_snapshot, occlusion.cluster_identity())",
+                self.scene
             ),
             &[
                 Box3d(*bounds).into(),
-                range.into(),
-                slots.into(),
+                asked.range.into(),
+                visible.into(),
+                unproven.into(),
                 snapshot.into(),
             ],
         );
@@ -348,7 +391,7 @@ impl Blocks {
     fn finish(&self, job: &Job) {
         let query = format!(
             "SELECT EXISTS (SELECT FROM {}.view_cell_block WHERE NOT done)",
-            self.0
+            self.scene
         );
         if one(&query, &[]).unwrap_or(true) {
             notice!("the last squares are being computed by others");
@@ -361,29 +404,27 @@ impl Blocks {
                      SELECT pg_catalog.pg_snapshot_xmin(c.snapshot) FROM {0}.view_cell AS c \
                      WHERE c.cluster OPERATOR(pg_catalog.=) occlusion.cluster_identity() \
                      ORDER BY 1 LIMIT 1)",
-                self.0
+                self.scene
             ),
             &[],
         );
     }
 }
 
-/// That a cell c lies in a block b.
-const LIES_IN: &str = "c.box OPERATOR(occlusion.<@) occlusion.box3d( \
-    occlusion.point3d(occlusion.x(occlusion.lower(b.area)), occlusion.y(occlusion.lower(b.area)), -1e300), \
-    occlusion.point3d(occlusion.x(occlusion.upper(b.area)), occlusion.y(occlusion.upper(b.area)), 1e300))";
-
 /// That a block is of the kind that the first four arguments ask for.
 const IS_ASKED: &str = "range OPERATOR(pg_catalog.=) $1 AND smallest OPERATOR(pg_catalog.=) $2 \
     AND largest OPERATOR(pg_catalog.=) $3 AND finest OPERATOR(pg_catalog.=) $4";
 
+/// A cell with the numbers of features.
+struct Made {
+    bounds: engine::Box3d,
+    visible: Vec<i64>,
+    /// Those of them that have no witness.
+    unproven: Vec<i64>,
+}
+
 /// The cells of a square; an incomplete answer only where the work is cancelled.
-fn cover(
-    around: &CellScene,
-    region: &ViewRegion,
-    block: &Block,
-    cancelled: &AtomicBool,
-) -> Vec<ViewCell> {
+fn cover(around: &Around, region: &ViewRegion, block: &Block, cancelled: &AtomicBool) -> Vec<Made> {
     let asked = &block.asked;
     let options = CoverOptions {
         range: asked.range,
@@ -404,11 +445,46 @@ fn cover(
         .map_init(CellSolver::default, |solver, at| {
             let (x, y) = (at % count, at / count);
             let square = engine::Box3d::new(corner(x, y), corner(x + 1, y + 1));
-            solver.cover(around, region, &square, &options, &stop)
+            let cells = solver.cover(&around.scene, region, &square, &options, &stop)?;
+            let proven = |cell| prove(solver, around, region, asked, cell, &stop);
+            cells.into_iter().map(proven).collect::<Option<Vec<_>>>()
         })
         .flatten_iter()
         .flatten()
         .collect()
+}
+
+/// Finds the witnesses of a cell; `None` where the work is cancelled.
+fn prove(
+    solver: &mut CellSolver,
+    around: &Around,
+    region: &ViewRegion,
+    asked: &Asked,
+    cell: ViewCell,
+    stop: &dyn Fn() -> bool,
+) -> Option<Made> {
+    let query = CellQuery {
+        bounds: cell.bounds,
+        range: asked.range,
+        precision: asked.finest,
+    };
+    let is_open = |bounds: &engine::Box3d| region.touches(bounds);
+    let witnesses = solver.prove(
+        &around.scene,
+        &around.surfaces,
+        &query,
+        &cell.visible,
+        &is_open,
+        stop,
+    )?;
+    let id = |spot: &(usize, usize)| around.scene.feature(*spot).0;
+    let unproven = cell.visible.iter().zip(&witnesses);
+    let unproven = unproven.filter(|(_, witness)| witness.is_none());
+    Some(Made {
+        bounds: cell.bounds,
+        unproven: unproven.map(|(spot, _)| id(spot)).collect(),
+        visible: cell.visible.iter().map(id).collect(),
+    })
 }
 
 /// The squares of a grid on which streets are, along a curve through the plan.

@@ -3,15 +3,14 @@
 use super::base::{column_of, upright};
 use super::statements::{Ask, Statements};
 use super::stored_mesh::mesh_of;
+use super::surfaces;
 use super::tables::Tables;
 use crate::snapshot_read::{Moment, Row};
 use crate::types::{Box3d, Point3d};
-use engine::{Share, SightLine, SolidColumn, TriangleMesh, extruded};
-use glam::DVec3;
+use engine::{Share, SightLine, TriangleMesh};
 use pgrx::iter::TableIterator;
 use pgrx::pg_sys::Datum;
 use pgrx::{IntoDatum, name, pg_extern};
-use std::collections::HashMap;
 use std::rc::Rc;
 
 /// A piece of the line near more features than this is halved, so that what lies behind an obstacle
@@ -132,9 +131,12 @@ impl<'a> Search<'a> {
                 None => bare.push(feature),
             }
         }
-        let columns = self.solids(Ask::Columns, &bare, column_of);
+        let solids = |ask, features: &[i64], solid| {
+            surfaces::solids(&self.statements, Moment::Query, ask, features, solid)
+        };
+        let columns = solids(Ask::Columns, &bare, column_of);
         bare.retain(|feature| !columns.contains_key(feature));
-        let boxes = self.solids(Ask::AllInnerEnvelopes, &bare, |row| {
+        let boxes = solids(Ask::AllInnerEnvelopes, &bare, |row| {
             row.get::<Box3d>(2).map(|bounds| upright(&bounds.0))
         });
         for (feature, triangles) in columns.into_iter().chain(boxes) {
@@ -143,27 +145,6 @@ impl<'a> Search<'a> {
                 line.enters(&TriangleMesh::from_triangles(triangles)),
             );
         }
-    }
-
-    /// The triangles around the solids of each feature that has some.
-    fn solids(
-        &self,
-        ask: Ask,
-        features: &[i64],
-        solid: fn(&Row) -> Option<SolidColumn>,
-    ) -> HashMap<i64, Vec<[DVec3; 3]>> {
-        let mut solids: HashMap<i64, Vec<[DVec3; 3]>> = HashMap::new();
-        if !features.is_empty() {
-            let asked = self.statements.get(ask);
-            asked.read(Moment::Query, &array(features), |row| {
-                if let Some(feature) = row.get(1) {
-                    let triangles = solids.entry(feature).or_default();
-                    let mesh = solid(row).and_then(|solid| surface_of(&solid));
-                    triangles.extend(mesh.iter().flat_map(TriangleMesh::corners));
-                }
-            });
-        }
-        solids
     }
 
     fn note(&mut self, feature: i64, share: Option<Share>) {
@@ -183,12 +164,6 @@ fn at_mesh(line: &SightLine, row: &Row) -> Option<Option<Share>> {
             line.passes_through(&mesh)
         }
     }))
-}
-
-/// The surface of a column; `None` where its footprint is no polygon, or it is flat.
-fn surface_of(column: &SolidColumn) -> Option<TriangleMesh> {
-    let solid = extruded(&column.footprint, column.bottom, column.top).ok()?;
-    Some(solid.mesh)
 }
 
 /// Numbers of features as an argument.

@@ -10,13 +10,15 @@ mod pack;
 mod packed_tile;
 mod statements;
 mod stored_mesh;
+mod surfaces;
 mod surroundings;
 mod tables;
 mod tiles;
 mod view_cells;
+mod witnesses;
 
 pub use pack::pack_if_possible;
-pub use surroundings::Surroundings;
+pub use surroundings::{Around, Surroundings};
 
 use crate::field_of_view::FieldOfView;
 use crate::types::{Box3d, Frustum, Point3d, ViewCone, ViewSector};

@@ -53,6 +53,10 @@ pub enum Ask {
     AllInnerEnvelopes,
     /// Visible set, box and range of the view cell of an eye, in a cluster.
     ViewCell,
+    /// Box and range of the view cell with an id.
+    CellQuery,
+    /// Ids of the features that are proven to be visible from it.
+    Proven,
     /// Id and slot of some features.
     Slots,
 }
@@ -111,6 +115,16 @@ impl Ask {
                 "SELECT id::pg_catalog.int8, slot::pg_catalog.int4 FROM {scene}.feature \
                  WHERE id OPERATOR(pg_catalog.=) ANY ($1)"
             ),
+            Self::CellQuery => format!(
+                "SELECT box::occlusion.box3d, range::pg_catalog.float8 FROM {scene}.view_cell \
+                 WHERE id OPERATOR(pg_catalog.=) $1"
+            ),
+            Self::Proven => format!(
+                "SELECT f.id::pg_catalog.int8 FROM {scene}.view_cell AS c \
+                 CROSS JOIN LATERAL occlusion.unnest(c.visible OPERATOR(occlusion.-) c.unproven) AS s (slot) \
+                 JOIN {scene}.feature AS f ON f.slot OPERATOR(pg_catalog.=) s.slot \
+                 WHERE c.id OPERATOR(pg_catalog.=) $1"
+            ),
             Self::Hidden => written("hidden_features_statement", name),
             Self::ViewCell => written("view_cell_statement", name),
         }
@@ -119,7 +133,7 @@ impl Ask {
     fn parameters(self) -> Vec<Oid> {
         match self {
             Self::AnyTile => Vec::new(),
-            Self::Content => vec![pg_sys::INT8OID],
+            Self::Content | Self::CellQuery | Self::Proven => vec![pg_sys::INT8OID],
             Self::FeaturesOf
             | Self::Columns
             | Self::InnerEnvelopes

@@ -5,11 +5,12 @@ use super::cache::Version;
 use super::pack::MOST_FEATURES;
 use super::packed_tile::PackedTile;
 use super::statements::{Ask, Statements};
+use super::surfaces;
 use super::tables::Tables;
 use crate::error::{Refusal, or_raise};
 use crate::snapshot_read::{Moment, argument};
 use crate::types::Box3d;
-use engine::{CellTile, Tile, TileFeature, neighbourhoods};
+use engine::{CellScene, CellTile, SurfaceTile, Tile, TileFeature, neighbourhoods};
 use lru::LruCache;
 use pgrx::{PgSqlErrorCode, Uuid};
 use std::collections::{HashMap, HashSet};
@@ -19,11 +20,23 @@ use std::sync::Arc;
 /// Bytes that a corner of an eroded tile takes, or a few more.
 const CORNER: usize = 32;
 
+/// Bytes that a triangle of a surface takes, with its share of the tree.
+const TRIANGLE: usize = 192;
+
+/// What is around some cells.
+pub struct Around {
+    pub scene: CellScene,
+    pub surfaces: engine::Surfaces,
+}
+
+/// A neighbourhood, as it hides and as it is seen.
+type Kept = (Arc<CellTile>, Arc<SurfaceTile>);
+
 /// The tiles of a scene as they are now, with what is left of them after erosions. They are kept from one
 /// part of the scene to the next, those that were used last longest.
 pub struct Surroundings {
     scene: String,
-    kept: LruCache<Version, Arc<CellTile>>,
+    kept: LruCache<Version, Kept>,
     room: usize,
 }
 
@@ -54,7 +67,15 @@ impl Surroundings {
     }
 
     /// All features that meet a box.
-    pub fn around(&mut self, bounds: &engine::Box3d) -> Vec<Arc<CellTile>> {
+    pub fn around(&mut self, bounds: &engine::Box3d) -> Around {
+        let (tiles, surfaces) = self.tiles(bounds).into_iter().unzip();
+        Around {
+            scene: CellScene::new(tiles),
+            surfaces: engine::Surfaces::new(surfaces),
+        }
+    }
+
+    fn tiles(&mut self, bounds: &engine::Box3d) -> Vec<Kept> {
         self.shrink();
         let tables = Tables::of(&self.scene);
         let statements = Statements::of(&self.scene, &tables);
@@ -71,7 +92,8 @@ impl Surroundings {
             }
         }
         let features = base::near(&statements, Moment::Now, bounds);
-        tiles(features.into_iter().map(|base| base.feature).collect())
+        let features = features.into_iter().map(|base| base.feature).collect();
+        tiles(&statements, features)
     }
 
     /// The slots of features, of those that have one.
@@ -88,31 +110,28 @@ impl Surroundings {
         slots
     }
 
-    fn load(
-        &mut self,
-        statements: &Statements,
-        (id, version): (i64, Version),
-    ) -> Option<Arc<CellTile>> {
-        if let Some(tile) = self.kept.get(&version) {
-            return Some(Arc::clone(tile));
+    fn load(&mut self, statements: &Statements, (id, version): (i64, Version)) -> Option<Kept> {
+        if let Some(kept) = self.kept.get(&version) {
+            return Some(kept.clone());
         }
         let mut read = None;
         let content = statements.get(Ask::Content);
         content.read(Moment::Now, &argument(id), |row| {
             read = row.get::<&[u8]>(1).map(PackedTile::from_bytes);
         });
-        let tile = Arc::new(CellTile::new(or_raise(read?).tile));
-        self.kept.put(version, Arc::clone(&tile));
-        Some(tile)
+        let kept = kept(statements, or_raise(read?).tile);
+        self.kept.put(version, kept.clone());
+        Some(kept)
     }
 
     fn shrink(&mut self) {
-        let size = |tile: &Arc<CellTile>| CORNER * tile.corner_count();
-        let mut all: usize = self.kept.iter().map(|(_, tile)| size(tile)).sum();
+        let size =
+            |(tile, surfaces): &Kept| CORNER * tile.corner_count() + TRIANGLE * surfaces.len();
+        let mut all: usize = self.kept.iter().map(|(_, kept)| size(kept)).sum();
         while all > self.room
-            && let Some((_, tile)) = self.kept.pop_lru()
+            && let Some((_, kept)) = self.kept.pop_lru()
         {
-            all -= size(&tile);
+            all -= size(&kept);
         }
     }
 }
@@ -137,12 +156,22 @@ fn unedited(statements: &Rc<Statements>, bounds: &engine::Box3d) -> Option<Vec<(
 }
 
 /// Tiles of some features.
-fn tiles(features: Vec<TileFeature>) -> Vec<Arc<CellTile>> {
+fn tiles(statements: &Statements, features: Vec<TileFeature>) -> Vec<Kept> {
     let boxes: Vec<engine::Box3d> = features.iter().map(|feature| feature.envelope).collect();
     let tile = |group: Vec<usize>| {
         let members: Vec<TileFeature> = group.iter().map(|&at| features[at].clone()).collect();
-        Arc::new(CellTile::new(Tile::new(&members)))
+        kept(statements, Tile::new(&members))
     };
     let groups = neighbourhoods(&boxes, |_| 1, MOST_FEATURES);
     groups.into_iter().map(tile).collect()
+}
+
+/// A tile with the surfaces of its features.
+fn kept(statements: &Statements, tile: Tile) -> Kept {
+    let features: Vec<i64> = (0..tile.len()).map(|at| tile.feature(at).0).collect();
+    let surfaces = surfaces::of(statements, Moment::Now, &features);
+    (
+        Arc::new(CellTile::new(tile)),
+        Arc::new(SurfaceTile::new(surfaces)),
+    )
 }

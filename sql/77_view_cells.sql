@@ -56,6 +56,8 @@ BEGIN
         );
         ALTER TABLE %1$I.change REPLICA IDENTITY FULL;
         CREATE INDEX change_transaction ON %1$I.change (transaction);
+        CREATE INDEX change_place ON %1$I.change USING gist (place);
+        CREATE INDEX change_anywhere ON %1$I.change (feature) WHERE place IS NULL;
         COMMENT ON TABLE %1$I.change IS 'log: what was edited since view cells are computed; derived';
         COMMENT ON COLUMN %1$I.change.feature IS 'feature that was edited; NULL: a street';
         COMMENT ON COLUMN %1$I.change.place IS 'box around it before or after; NULL: wherever the feature is';
@@ -81,17 +83,22 @@ COMMENT ON PROCEDURE occlusion.generate_view_cells(text, float8, float8, float8,
     'computes what can be seen from every part of the streets; goes on where it was interrupted, and shares the work with other sessions that call it; range: how far eyes see, smallest and largest: edges of cells, finest: half edge of the smallest parts of a cell that are told apart, all in metres';
 
 -- Whether a view cell c is right under the snapshot of the query: no edit that the query sees and the cell
--- does not is near it. It is only asked where the cluster is the one whose transactions the cell names.
+-- does not is near it. Edits without a place are looked through, and not the features nearby, which are many
+-- more as a rule. It is only asked where the cluster is the one whose transactions the cell names.
 CREATE FUNCTION occlusion.valid_cell_condition(scene text) RETURNS text
 LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
 SET search_path = pg_catalog, pg_temp AS $$
     SELECT format($q$
         NOT EXISTS (
             SELECT FROM %1$I.change AS e
-            LEFT JOIN %1$I.feature AS f ON e.place IS NULL AND f.id OPERATOR(pg_catalog.=) e.feature
-            WHERE NOT pg_catalog.pg_visible_in_snapshot(e.transaction, c.snapshot)
-              AND CASE WHEN e.feature IS NULL THEN e.place OPERATOR(occlusion.&&) c.box
-                       ELSE coalesce(e.place, f.envelope) OPERATOR(occlusion.&&) occlusion.expand(c.box, c.range) END
+            WHERE e.place OPERATOR(occlusion.&&) occlusion.expand(c.box, c.range)
+              AND (e.feature IS NOT NULL OR e.place OPERATOR(occlusion.&&) c.box)
+              AND NOT pg_catalog.pg_visible_in_snapshot(e.transaction, c.snapshot)
+        ) AND NOT EXISTS (
+            SELECT FROM %1$I.change AS e
+            WHERE e.place IS NULL AND NOT pg_catalog.pg_visible_in_snapshot(e.transaction, c.snapshot)
+              AND (SELECT f.envelope FROM %1$I.feature AS f WHERE f.id OPERATOR(pg_catalog.=) e.feature)
+                      OPERATOR(occlusion.&&) occlusion.expand(c.box, c.range)
         )
     $q$, scene)
 $$;

@@ -86,6 +86,34 @@ fn a_tile_survives_as_bytes() {
 }
 
 #[test]
+fn a_gathered_tile_is_as_one_of_the_same_features() {
+    let features = city(300);
+    let halves = [
+        Tile::new(&features[..120]),
+        Tile::from_bytes(&Tile::new(&features[120..]).to_bytes()).unwrap(),
+    ];
+    let places = halves
+        .iter()
+        .flat_map(|tile| (0..tile.len()).map(move |position| (tile, position)));
+    let wanted = |id: i64| id % 3 != 0;
+    let picks: Vec<(&Tile, usize)> = places
+        .filter(|(tile, position)| wanted(tile.feature(*position).0))
+        .collect();
+    let gathered = Tile::gathered(&picks);
+    let same: Vec<TileFeature> = features.into_iter().filter(|f| wanted(f.id)).collect();
+    let same = Tile::new(&same);
+    assert_eq!(gathered.len(), same.len());
+    assert_eq!(gathered.byte_length(), same.byte_length());
+    let again = Tile::from_bytes(&gathered.to_bytes()).unwrap();
+    assert_eq!(again.bounds(), same.bounds());
+    for place in [DVec3::ZERO, DVec3::new(60.0, -45.0, 12.0)] {
+        let eye = middle(&same) + place;
+        assert_eq!(seen(&gathered, eye, None), seen(&same, eye, None));
+    }
+    assert!(Tile::gathered(&[]).is_empty());
+}
+
+#[test]
 fn what_is_out_of_date_is_passed_over_and_hides_nothing() {
     let features = city(300);
     let tile = Tile::new(&features);

@@ -140,7 +140,9 @@ impl Tile {
             within(&feature.outline, corners, "outlines")?;
             within(&feature.columns, self.columns.len(), "columns")?;
             within(&feature.ridges, self.ridges.len(), "roofs")?;
-            within(&feature.crests, self.ridges.len(), "roofs")?;
+            let are_first = feature.crests.start == feature.ridges.start
+                && (feature.crests.start..=feature.ridges.end).contains(&feature.crests.end);
+            in_order(are_first, "roofs")?;
         }
         for column in &self.columns {
             within(&column.rings, self.rings.len(), "rings")?;

@@ -90,6 +90,22 @@ impl Tile {
         tile
     }
 
+    /// The tile of features that others hold, as those have them: given by tile and position.
+    #[must_use]
+    pub fn gathered(picks: &[(&Self, usize)]) -> Self {
+        let boxes: Vec<Box3d> = picks.iter().map(|(tile, at)| tile.feature(*at).1).collect();
+        let (tree, order) = Tree::new(&boxes);
+        let mut gathered = Self {
+            tree,
+            ..Self::default()
+        };
+        for at in order {
+            let (tile, position) = picks[at];
+            gathered.copy(tile, position);
+        }
+        gathered
+    }
+
     /// The smallest box that holds all of it; `None` when it is empty.
     #[must_use]
     pub fn bounds(&self) -> Option<Box3d> {
@@ -218,6 +234,57 @@ impl Tile {
             ridges,
             crests,
         });
+    }
+
+    /// Adds a feature of another tile.
+    fn copy(&mut self, tile: &Self, position: usize) {
+        let feature = &tile.features[position];
+        let outline = self.copy_corners(tile, &feature.outline);
+        let first = index(self.columns.len());
+        for column in &tile.columns[positions(&feature.columns)] {
+            self.copy_column(tile, column);
+        }
+        let columns = first..index(self.columns.len());
+        let ridges = self.copy_ridges(tile, &feature.ridges);
+        self.features.push(Feature {
+            id: feature.id,
+            envelope: feature.envelope,
+            outline,
+            columns,
+            crests: ridges.start..ridges.start + index(feature.crests.len()),
+            ridges,
+        });
+    }
+
+    fn copy_column(&mut self, tile: &Self, column: &Column) {
+        let first = index(self.rings.len());
+        for ring in &tile.rings[positions(&column.rings)] {
+            let ring = self.copy_corners(tile, ring);
+            self.rings.push(ring);
+        }
+        self.columns.push(Column {
+            rings: first..index(self.rings.len()),
+            ..*column
+        });
+    }
+
+    fn copy_corners(&mut self, tile: &Self, range: &Range<u32>) -> Range<u32> {
+        let range = positions(range);
+        let buried = tile.buried[range.clone()].iter().copied();
+        self.add_corners(tile.corners[range].iter().copied().zip(buried))
+    }
+
+    /// Adds edges of another tile's roofs with all peaks from the first to the last of them.
+    fn copy_ridges(&mut self, tile: &Self, range: &Range<u32>) -> Range<u32> {
+        let ridges = &tile.ridges[positions(range)];
+        let (first, base) = (index(self.ridges.len()), index(self.peaks.len()));
+        let ends = ridges.as_flattened();
+        if let Some((&low, &high)) = ends.iter().min().zip(ends.iter().max()) {
+            self.peaks.extend(&tile.peaks[low as usize..=high as usize]);
+            let placed = ridges.iter().map(|edge| edge.map(|end| base + (end - low)));
+            self.ridges.extend(placed);
+        }
+        first..index(self.ridges.len())
     }
 
     /// Adds the edges of a roof, the crests among them first, and returns where both are.

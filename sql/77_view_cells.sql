@@ -123,7 +123,8 @@ CREATE FUNCTION occlusion.view_cell_statement(scene text) RETURNS text
 LANGUAGE sql STABLE STRICT PARALLEL SAFE
 SET search_path = pg_catalog, pg_temp AS $$
     SELECT format($q$
-        SELECT c.visible::occlusion.feature_set, c.box::occlusion.box3d, c.range::pg_catalog.float8
+        SELECT c.visible::occlusion.feature_set, c.box::occlusion.box3d, c.range::pg_catalog.float8,
+               c.id::pg_catalog.int8, c.snapshot::pg_catalog.pg_snapshot
         FROM %1$I.view_cell AS c
         WHERE c.box OPERATOR(occlusion.@>) $1 AND c.cluster OPERATOR(pg_catalog.=) $2 AND %2$s AND (SELECT %3$s)
         LIMIT 1

@@ -14,6 +14,9 @@ static GENERATE_MEMORY: GucSetting<i32> = GucSetting::<i32>::new(256 * 1024);
 /// Whether answers leave out what occlusion volumes hide, besides what live ones do.
 static USE_VOLUMES: GucSetting<bool> = GucSetting::<bool>::new(true);
 
+/// Whether answers look only at what may be seen from the view cell of the eye.
+static USE_CELLS: GucSetting<bool> = GucSetting::<bool>::new(false);
+
 /// Most threads that can be asked for.
 const MOST_THREADS: i32 = 1024;
 
@@ -57,11 +60,24 @@ pub fn register() {
         GucContext::Userset,
         GucFlags::default(),
     );
+    GucRegistry::define_bool_guc(
+        c"pg_occlusion.use_cells",
+        c"Looks only at what may be seen from the view cell of the eye, where there is one.",
+        c"It pays where eyes see far and several of them are in one cell.",
+        &USE_CELLS,
+        GucContext::Userset,
+        GucFlags::default(),
+    );
 }
 
 /// Whether answers leave out what occlusion volumes hide.
 pub fn uses_volumes() -> bool {
     USE_VOLUMES.get()
+}
+
+/// Whether answers look only at what may be seen from the view cell of an eye.
+pub fn uses_cells() -> bool {
+    USE_CELLS.get()
 }
 
 /// Bytes of the tiles that a backend keeps.

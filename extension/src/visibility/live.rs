@@ -1,13 +1,20 @@
-//! What can be seen, found by the solver while the query runs.
+//! What can be seen, found by the solver while the query runs: of all that is in range, or of what may be
+//! seen from the view cell of the eye.
 
+use super::packed_tile::PackedTile;
+use super::statements::Statements;
+use super::tables::Tables;
 use super::tiles::Tiles;
+use super::view_cell::ViewCell;
 use crate::error::{Refusal, or_raise};
 use crate::field_of_view::FieldOfView;
+use crate::settings;
 use crate::types::shortest;
 use engine::{PointQuery, PointSolver, Sighting};
 use glam::DVec3;
 use pgrx::PgSqlErrorCode;
 use std::cell::RefCell;
+use std::rc::Rc;
 
 /// Metres by which the box that preselects all round is larger than the range, so that its rounding
 /// loses nothing in range.
@@ -38,6 +45,8 @@ pub struct Seen {
 /// How an answer came about.
 #[derive(Default)]
 pub struct Account {
+    /// Id of the view cell that was used, and how many features may be seen from it.
+    pub cell: Option<(i64, usize)>,
     pub tiles: usize,
     pub read: usize,
     pub cached: usize,
@@ -82,15 +91,20 @@ impl View {
 
     /// The features of a scene that may be seen in it, and how they were found.
     pub fn look(&self, scene: &str) -> (Vec<Seen>, Account) {
-        let mut tiles = Tiles::around(scene, &self.bounds());
-        let sightings = or_raise(self.solve(&mut tiles));
-        let mut account = Account {
-            above: sightings.len(),
-            cached: tiles.cached,
-            edited: tiles.edited(),
-            ..Account::default()
+        let tables = Tables::of(scene);
+        let statements = Statements::of(scene, &tables);
+        let mut account = Account::default();
+        let known = or_raise(self.known(tables, &statements, &mut account));
+        let is_live = known.is_none();
+        let mut tiles = match known {
+            Some(tile) => Tiles::only(tables, &statements, tile),
+            None => Tiles::meeting(tables, &statements, &self.bounds()),
         };
-        (account.tiles, account.read) = tiles.counts();
+        let sightings = or_raise(self.solve(&mut tiles));
+        account.above = sightings.len();
+        if is_live {
+            account.count(&tiles);
+        }
         let prepared = self.field.map(|field| field.prepared());
         let mut seen: Vec<Seen> = sightings
             .iter()
@@ -104,6 +118,30 @@ impl View {
         }
         account.hidden = account.in_view - seen.len();
         (seen, account)
+    }
+
+    /// All that may be seen in range from the view cell of the eye, if there is one that the current user may
+    /// rely on.
+    fn known(
+        &self,
+        tables: Tables,
+        statements: &Rc<Statements>,
+        account: &mut Account,
+    ) -> Result<Option<Rc<PackedTile>>, Refusal> {
+        let may_know = settings::uses_cells()
+            && tables.has_cells()
+            && tables.has_tiles()
+            && tables.may_read_cells();
+        if !may_know {
+            return Ok(None);
+        }
+        let cell = ViewCell::around(self.eye, statements);
+        let Some(cell) = cell.filter(|cell| self.range <= cell.range) else {
+            return Ok(None);
+        };
+        let tile = cell.tile(tables, statements, account)?;
+        account.cell = tile.as_ref().map(|tile| (cell.id, tile.tile.len()));
+        Ok(tile)
     }
 
     fn solve(&self, tiles: &mut Tiles) -> Result<Vec<Sighting>, Refusal> {
@@ -120,6 +158,15 @@ impl View {
             prisms: true,
             wedge: self.field.and_then(|field| field.prepared().plan_wedge()),
         }
+    }
+}
+
+impl Account {
+    /// Takes down which tiles were looked at.
+    pub fn count(&mut self, tiles: &Tiles) {
+        (self.tiles, self.read) = tiles.counts();
+        self.cached = tiles.cached;
+        self.edited = tiles.edited();
     }
 }
 

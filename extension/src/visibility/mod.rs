@@ -14,6 +14,7 @@ mod surfaces;
 mod surroundings;
 mod tables;
 mod tiles;
+mod view_cell;
 mod view_cells;
 mod witnesses;
 
@@ -21,6 +22,7 @@ pub use pack::pack_if_possible;
 pub use surroundings::{Around, Surroundings};
 
 use crate::field_of_view::FieldOfView;
+use crate::settings;
 use crate::types::{Box3d, Frustum, Point3d, ViewCone, ViewSector};
 use live::{Account, View};
 use pgrx::iter::{SetOfIterator, TableIterator};
@@ -49,6 +51,7 @@ fn rows(scene: &str, view: &View) -> Rows {
 fn account(scene: &str, view: &View) -> SetOfIterator<'static, String> {
     let (seen, account) = view.look(scene);
     let Account {
+        cell,
         tiles,
         read,
         cached,
@@ -57,13 +60,19 @@ fn account(scene: &str, view: &View) -> SetOfIterator<'static, String> {
         in_view,
         hidden,
     } = account;
-    SetOfIterator::new(vec![
+    let cell = match cell {
+        Some((id, features)) => format!("View Cell: {id}  Features: {features}"),
+        None => "View Cell: none".to_owned(),
+    };
+    let cell = settings::uses_cells().then_some(cell);
+    let rest = [
         format!("Tiles in Range: {tiles}  Needed: {read}  Cached: {cached}"),
         format!("Features Edited Since Packing: {edited}"),
         format!("Features above the Horizon: {above}  In View: {in_view}"),
         format!("Features Hidden by Occlusion Volumes: {hidden}"),
         format!("Features Returned: {}", seen.len()),
-    ])
+    ];
+    SetOfIterator::new(cell.into_iter().chain(rest))
 }
 
 #[pg_extern(stable, strict, parallel_safe)]

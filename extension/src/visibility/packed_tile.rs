@@ -5,6 +5,7 @@ use crate::error::Refusal;
 use engine::Tile;
 use pgrx::PgSqlErrorCode;
 use std::collections::HashMap;
+use std::rc::Rc;
 
 /// A tile with the classes of its features.
 #[derive(Debug)]
@@ -24,17 +25,35 @@ impl PackedTile {
             .into_iter()
             .map(|base| (base.feature, base.class))
             .unzip();
-        let name_of: HashMap<i64, &String> = features.iter().map(|f| f.id).zip(&names).collect();
-        let tile = Tile::new(&features);
-        let mut classes: Vec<String> = names.clone();
-        classes.sort_unstable();
-        classes.dedup();
+        let ids = features.iter().map(|feature| feature.id);
+        let name_of = ids.zip(names.iter().map(String::as_str)).collect();
+        Self::with_classes(Tile::new(&features), &name_of)
+    }
+
+    /// The tile of features that others hold, each once: given by tile and position.
+    pub fn gathered(picks: &[(Rc<Self>, usize)]) -> Self {
+        let mut name_of = HashMap::with_capacity(picks.len());
+        let mut spots = Vec::with_capacity(picks.len());
+        for (packed, position) in picks {
+            let (id, _) = packed.tile.feature(*position);
+            name_of.insert(id, packed.class(*position));
+            spots.push((&packed.tile, *position));
+        }
+        Self::with_classes(Tile::gathered(&spots), &name_of)
+    }
+
+    /// A tile and the classes of its features, by their ids.
+    fn with_classes(tile: Tile, name_of: &HashMap<i64, &str>) -> Self {
+        let mut names: Vec<&str> = name_of.values().copied().collect();
+        names.sort_unstable();
+        names.dedup();
         let class_of = (0..tile.len()).map(|position| {
             let name = name_of[&tile.feature(position).0];
-            let class = classes.partition_point(|class| class < name);
+            let class = names.partition_point(|&class| class < name);
             u32::try_from(class).unwrap_or(u32::MAX)
         });
         let class_of = class_of.collect();
+        let classes = names.into_iter().map(str::to_owned).collect();
         Self::with_size(tile, classes, class_of)
     }
 

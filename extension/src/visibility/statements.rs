@@ -51,12 +51,14 @@ pub enum Ask {
     Meshes,
     /// Feature and box of all inner envelopes of some features.
     AllInnerEnvelopes,
-    /// Visible set, box and range of the view cell of an eye, in a cluster.
+    /// Visible set, box, range, id and snapshot of the view cell of an eye, in a cluster.
     ViewCell,
     /// Box and range of the view cell with an id.
     CellQuery,
     /// Ids of the features that are proven to be visible from it.
     Proven,
+    /// Id and envelope of the features with some slots.
+    Slotted,
     /// Id and slot of some features.
     Slots,
 }
@@ -124,6 +126,9 @@ impl Ask {
                  CROSS JOIN LATERAL occlusion.unnest(c.visible OPERATOR(occlusion.-) c.unproven) AS s (slot) \
                  JOIN {scene}.feature AS f ON f.slot OPERATOR(pg_catalog.=) s.slot \
                  WHERE c.id OPERATOR(pg_catalog.=) $1"
+            Self::Slotted => format!(
+                "SELECT id::pg_catalog.int8, envelope::occlusion.box3d FROM {scene}.feature \
+                 WHERE slot OPERATOR(pg_catalog.=) ANY ($1)"
             ),
             Self::Hidden => written("hidden_features_statement", name),
             Self::ViewCell => written("view_cell_statement", name),
@@ -140,6 +145,7 @@ impl Ask {
             | Self::Meshes
             | Self::Slots
             | Self::AllInnerEnvelopes => vec![pg_sys::INT8ARRAYOID],
+            Self::Slotted => vec![pg_sys::INT4ARRAYOID],
             Self::EnvelopesNear => vec![Box3d::type_oid(), pg_sys::INT8ARRAYOID],
             Self::Tiles | Self::Edits | Self::FeaturesNear => vec![Box3d::type_oid()],
             Self::Hidden => vec![crate::types::Point3d::type_oid()],

@@ -78,6 +78,7 @@ const DERIVED: [(&CStr, Columns); 4] = [
     (
         c"view_cell",
         &[
+            (c"id", Some(pg_sys::INT8OID)),
             (c"box", None),
             (c"range", Some(pg_sys::FLOAT8OID)),
             (c"snapshot", Some(pg_sys::PG_SNAPSHOTOID)),
@@ -192,6 +193,13 @@ impl Tables {
         tables
             .into_iter()
             .all(|oid| may(oid, pg_sys::ACL_SELECT) && sees_all_rows(oid))
+    }
+
+    /// Whether the current user may read view cells and all that they and tiles rest on.
+    pub fn may_read_cells(&self) -> bool {
+        let street = relation(self.namespace, c"street");
+        let tables = [street, self.view_cell, self.change];
+        self.may_read_all() && tables.into_iter().all(|oid| may(oid, pg_sys::ACL_SELECT))
     }
 
     /// Whether the current user may replace tiles.

@@ -1,7 +1,7 @@
 //! [`Tiles`], where the solver reads the features around an eye.
 
 use super::base;
-use super::cache::{self, Version};
+use super::cache::{self, Key, Version};
 use super::live::Seen;
 use super::packed_tile::PackedTile;
 use super::statements::{Ask, Statements};
@@ -34,15 +34,16 @@ impl Tiles {
     /// Those around an eye. Where tiles may not be relied on, all is read from the tables.
     pub fn around(scene: &str, bounds: &engine::Box3d) -> Self {
         let tables = SceneTables::of(scene);
-        let mut tiles = Self {
-            tables,
-            statements: Statements::of(scene, &tables),
-            bounds: Vec::new(),
-            packed: Vec::new(),
-            tiles: Vec::new(),
-            edited: HashSet::new(),
-            cached: 0,
-        };
+        Self::meeting(tables, &Statements::of(scene, &tables), bounds)
+    }
+
+    /// The same of a scene whose tables are known.
+    pub fn meeting(
+        tables: SceneTables,
+        statements: &Rc<Statements>,
+        bounds: &engine::Box3d,
+    ) -> Self {
+        let mut tiles = Self::none(tables, statements);
         if tables.has_tiles() && tables.are_watched() && tables.may_read_all() {
             tiles.find(bounds);
             if !tiles.packed.is_empty() || tiles.is_packed() {
@@ -52,9 +53,28 @@ impl Tiles {
                 return tiles;
             }
         }
-        let features = base::near(&tiles.statements, Moment::Query, bounds);
-        tiles.add(PackedTile::new(features));
+        let features = base::near(statements, Moment::Query, bounds);
+        tiles.add(Rc::new(PackedTile::new(features)));
         tiles
+    }
+
+    /// One that holds all that counts.
+    pub fn only(tables: SceneTables, statements: &Rc<Statements>, tile: Rc<PackedTile>) -> Self {
+        let mut tiles = Self::none(tables, statements);
+        tiles.add(tile);
+        tiles
+    }
+
+    fn none(tables: SceneTables, statements: &Rc<Statements>) -> Self {
+        Self {
+            tables,
+            statements: Rc::clone(statements),
+            bounds: Vec::new(),
+            packed: Vec::new(),
+            tiles: Vec::new(),
+            edited: HashSet::new(),
+            cached: 0,
+        }
     }
 
     /// Whether all features are in tiles or in the log of edits: a transaction that packs a scene packs
@@ -90,7 +110,7 @@ impl Tiles {
         if !self.edited.is_empty() {
             let ids: Vec<i64> = self.edited.iter().copied().collect();
             let features = base::of(&statements, Moment::Query, &ids);
-            self.add(PackedTile::new(features));
+            self.add(Rc::new(PackedTile::new(features)));
         }
     }
 
@@ -106,16 +126,43 @@ impl Tiles {
         hidden
     }
 
-    fn add(&mut self, tile: PackedTile) {
+    /// One tile of features that are given by id, with their outer envelopes; `None` unless all are here.
+    pub fn gather(
+        &mut self,
+        mut features: HashMap<i64, engine::Box3d>,
+    ) -> Result<Option<PackedTile>, Refusal> {
+        let mut picks = Vec::new();
+        for position in 0..self.tiles.len() {
+            let bounds = self.bounds[position];
+            if !features.values().any(|envelope| bounds.contains(envelope)) {
+                continue;
+            }
+            self.tile(position)?;
+            let Some(tile) = self.tiles[position].clone() else {
+                continue;
+            };
+            for at in 0..tile.tile.len() {
+                let (id, envelope) = tile.tile.feature(at);
+                if features.get(&id) == Some(&envelope) && !self.is_outdated(position, id) {
+                    features.remove(&id);
+                    picks.push((Rc::clone(&tile), at));
+                }
+            }
+        }
+        Ok(features.is_empty().then(|| PackedTile::gathered(&picks)))
+    }
+
+    fn add(&mut self, tile: Rc<PackedTile>) {
         if let Some(bounds) = tile.tile.bounds() {
             self.bounds.push(bounds);
-            self.tiles.push(Some(Rc::new(tile)));
+            self.tiles.push(Some(tile));
         }
     }
 
     fn load(&mut self, position: usize) -> Result<Rc<PackedTile>, Refusal> {
         let (id, version) = self.packed[position];
-        if let Some(tile) = cache::find(&version) {
+        let key = Key::Packed(version);
+        if let Some(tile) = cache::find(&key) {
             self.cached += 1;
             return Ok(tile);
         }
@@ -131,7 +178,7 @@ impl Tiles {
             )
         };
         let tile = Rc::new(read.ok_or_else(missing)??);
-        cache::keep(version, &tile);
+        cache::keep(key, &tile);
         Ok(tile)
     }
 

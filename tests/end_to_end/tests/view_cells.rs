@@ -3,7 +3,7 @@
 use std::thread;
 use std::time::{Duration, Instant};
 
-use end_to_end::{TestScene, client};
+use end_to_end::{TestScene, client, database_url, occlusion};
 use postgres::error::SqlState;
 
 /// Makes a small town in a scene whose name needs no quotes.
@@ -214,11 +214,62 @@ fn every_eye_of_the_streets_is_in_a_cell_and_sees_nothing_that_its_set_lacks() {
     assert_eq!(number(&mut scene, covered), eyes);
 }
 
-/// Makes eyes, and counts features that a sight line from one meets, within range, and that its set lacks: a
-/// live answer may hold too much, so what only it has is looked at along sight lines to its surface.
-fn unseen(scene: &mut TestScene) -> i64 {
-    scene.run(
-        "CREATE OR REPLACE FUNCTION pg_temp.generate_eyes() RETURNS SETOF occlusion.point3d LANGUAGE sql STABLE AS $$
+#[test]
+fn answers_through_cells_hold_all_that_is_seen() {
+    let mut scene = town("cells_answers", 300);
+    scene.run(&call(&scene.name));
+    let url = format!(
+        "{}&options=-c%20pg_occlusion.use_cells%3Don",
+        database_url()
+    );
+    let verified = occlusion(&[
+        "verify",
+        &scene.name,
+        "--observers",
+        "25",
+        "--resolution",
+        "256",
+        "--range",
+        "120",
+        "--json",
+        "--database",
+        &url,
+    ]);
+    let report = verified.expect(0).json();
+    assert_eq!(report["false_occlusions"], 0, "{report:#}");
+    assert!(report["visible"].as_u64().unwrap() > 100, "{report:#}");
+    // The same from many eyes: live answers have nothing that those through cells lack and a sight line
+    // meets.
+    scene.run(EYES);
+    scene.run("SET pg_occlusion.use_cells = on");
+    let through = "SELECT count(*) FROM pg_temp.generate_eyes() AS e (eye)
+                   CROSS JOIN LATERAL occlusion.explain_sight('{n}', e.eye, 120) AS line
+                   WHERE line ~ 'View Cell: \\d'";
+    let eyes = scene.number("SELECT count(*) FROM pg_temp.generate_eyes()");
+    assert_eq!(number(&mut scene, through), eyes);
+    let through =
+        "CREATE TEMP TABLE through AS SELECT e.eye, v.* FROM pg_temp.generate_eyes() AS e (eye)
+                   CROSS JOIN LATERAL occlusion.visible_features('{n}', e.eye, 120) AS v";
+    let through = through.replace("{n}", &scene.name);
+    scene.run(&through);
+    scene.run("SET pg_occlusion.use_cells = off");
+    scene.run(&through.replace("TABLE through", "TABLE live"));
+    let rows = scene.number("SELECT count(*) FROM live");
+    assert!(rows > 10_000, "{rows} rows");
+    let lost = "WITH lost AS (TABLE live EXCEPT TABLE through)
+         SELECT count(DISTINCT (l.eye::text, l.feature_id)) FROM lost AS l
+         JOIN {s}.mesh AS m ON m.feature = l.feature_id
+         CROSS JOIN LATERAL generate_series(1, cardinality(m.vertices), 3) AS at
+         CROSS JOIN LATERAL occlusion.line_of_sight('{n}', l.eye,
+             occlusion.point3d(m.vertices[at], m.vertices[at + 1], m.vertices[at + 2])) AS sight
+         WHERE sight.visible";
+    assert_eq!(number(&mut scene, lost), 0);
+    let more = scene.number("SELECT count(*) FROM (TABLE through EXCEPT TABLE live) AS more");
+    assert!(more * 1000 < rows, "{more} rows more than live");
+}
+
+/// A function that makes eyes.
+const EYES: &str = "CREATE OR REPLACE FUNCTION pg_temp.generate_eyes() RETURNS SETOF occlusion.point3d LANGUAGE sql STABLE AS $$
              SELECT occlusion.point3d(px, py, s.eye_low + (s.eye_high - s.eye_low) * (n % 3) / 2)
              FROM {s}.street AS s, generate_series(1, 60) AS n,
                   LATERAL (SELECT occlusion.lower(s.envelope) AS a, occlusion.size(s.envelope) AS d) AS e,
@@ -227,8 +278,12 @@ fn unseen(scene: &mut TestScene) -> i64 {
              WHERE s.area[1] @> point(px, py)
              ORDER BY s.id, n LIMIT 600
          $$;
-         SET search_path = public",
-    );
+         SET search_path = public";
+
+/// Makes eyes, and counts features that a sight line from one meets, within range, and that its set lacks: a
+/// live answer may hold too much, so what only it has is looked at along sight lines to its surface.
+fn unseen(scene: &mut TestScene) -> i64 {
+    scene.run(EYES);
     number(
         scene,
         "SELECT count(*) FROM pg_temp.generate_eyes() AS e (eye)

@@ -21,7 +21,7 @@ pub use device::Renderer;
 pub use error::Error;
 pub use item_buffer::ItemBuffer;
 pub use picture::{
-    Area, Image, Observer, PictureColumn, PictureFeature, PictureScene, PlanView, Status, View,
-    plan,
+    Area, Image, Observer, PictureCell, PictureColumn, PictureFeature, PictureScene, PlanView,
+    Sight, Status, View, heat_map, plan, sight_map,
 };
 pub use scene_mesh::SceneMesh;

@@ -7,20 +7,27 @@ use postgres::Client;
 use renderer::{PictureColumn, PictureFeature, PictureScene, Status};
 
 use super::Render;
-use super::picture::area;
+use super::picture::{area, observer, whereto};
 use crate::failure::Failure;
+use crate::field_of_view::FieldOfView;
 use crate::scene::{Feature, Scene};
 
 impl Render {
     /// The features in the field of view, with their columns.
-    pub fn solids(&self, client: &mut Client, scene: &Scene) -> Result<PictureScene, Failure> {
-        let within = self.field_of_view.within(client, &self.scene)?;
+    pub fn solids(
+        &self,
+        client: &mut Client,
+        scene: &Scene,
+        field: &FieldOfView,
+    ) -> Result<PictureScene, Failure> {
+        let within = field.within(client, &self.scene)?;
         let within: HashSet<i64> = within.iter().map(|feature| feature.id).collect();
         let inside = |feature: &&Feature| within.contains(&feature.id);
-        let [x, y, _] = self.field_of_view.observer.0;
+        let [x, y, _] = field.observer.0;
         Ok(PictureScene {
-            subtitle: format!("what hides at {x:.2}, {y:.2}\n{}", self.whereto()),
+            subtitle: format!("what hides at {x:.2}, {y:.2}\n{}", whereto(field)),
             features: scene.features.iter().filter(inside).map(solid).collect(),
+            observer: Some(observer(field)),
             ..self.surroundings(scene)
         })
     }

@@ -9,7 +9,7 @@ use renderer::{Area, Observer, PictureFeature, PictureScene, PlanView, Renderer,
 use super::Render;
 use super::size::Size;
 use crate::failure::Failure;
-use crate::field_of_view::Returned;
+use crate::field_of_view::{FieldOfView, Returned};
 use crate::scene::{Scene, Surfaces, number};
 
 /// Pixels along a side of each face of the item buffer that tells what is truly visible.
@@ -24,15 +24,14 @@ impl Render {
         &self,
         client: &mut Client,
         scene: &Scene,
+        field: &FieldOfView,
         renderer: &Renderer,
     ) -> Result<PictureScene, Failure> {
         let ids = |features: Vec<Returned>| features.iter().map(|feature| feature.id).collect();
-        let within: HashSet<i64> = ids(self.field_of_view.within(client, &self.scene)?);
-        let returned: HashSet<i64> = ids(self.field_of_view.visible(client, &self.scene)?);
+        let within: HashSet<i64> = ids(field.within(client, &self.scene)?);
+        let returned: HashSet<i64> = ids(field.visible(client, &self.scene)?);
         let mesh = Surfaces::of(scene).mesh();
-        let seen = renderer
-            .cube_map(&mesh, self.field_of_view.observer.0, TRUTH)?
-            .seen();
+        let seen = renderer.cube_map(&mesh, field.observer.0, TRUTH)?.seen();
         let is_seen = |position: usize| seen.contains_key(&number(position));
         let status = |position: usize, id: i64| match self.truth {
             true => true_status(within.contains(&id), is_seen(position)),
@@ -52,63 +51,38 @@ impl Render {
                 columns: Vec::new(),
             });
         Ok(PictureScene {
+            subtitle: self.question(field),
             features: features.collect(),
+            observer: Some(observer(field)),
             ..self.surroundings(scene)
         })
     }
 
-    /// The picture without features.
+    /// The picture without features, and without who looks at them.
     pub fn surroundings(&self, scene: &Scene) -> PictureScene {
         let streets = scene.streets.iter().map(|street| area(&street.area));
         PictureScene {
             title: self.caption.clone().unwrap_or_else(|| self.scene.clone()),
-            subtitle: self.question(),
             attribution: scene.attribution.clone().unwrap_or_default(),
-            features: Vec::new(),
             streets: streets.collect(),
-            rectangles: Vec::new(),
-            observer: Some(self.observer()),
-        }
-    }
-
-    /// Who looks, and whereto.
-    pub fn observer(&self) -> Observer {
-        let (heading, angle) = self.field_of_view.direction().unwrap_or((0.0, 360.0));
-        Observer {
-            eye: self.field_of_view.observer.0,
-            heading,
-            angle,
-            range: self.field_of_view.range,
+            ..Default::default()
         }
     }
 
     /// What was asked, in words.
-    fn question(&self) -> String {
-        let [x, y, z] = self.field_of_view.observer.0;
+    fn question(&self, field: &FieldOfView) -> String {
+        let [x, y, z] = field.observer.0;
         let coloured = if self.truth {
             "\ncoloured by what is truly visible"
         } else {
             ""
         };
-        format!("from {x:.2}, {y:.2}, {z:.2}\n{}{coloured}", self.whereto())
-    }
-
-    /// The field of view but for the eye, in words.
-    pub fn whereto(&self) -> String {
-        let range = self.field_of_view.range;
-        match self.field_of_view.direction() {
-            None => format!("all round, {range} m far"),
-            Some((heading, angle)) => {
-                let wide = (100.0 * angle).round() / 100.0;
-                format!("heading {heading}°, {wide}° wide, {range} m far")
-            }
-        }
+        format!("from {x:.2}, {y:.2}, {z:.2}\n{}{coloured}", whereto(field))
     }
 
     /// The whole scene, or what is in range where the scene is much wider.
-    pub fn plan_view(&self, picture: &PictureScene) -> PlanView {
-        let Size { width, height } = self.size;
-        let ([x, y, _], range) = (self.field_of_view.observer.0, self.field_of_view.range);
+    pub fn plan_view(&self, picture: &PictureScene, field: &FieldOfView) -> PlanView {
+        let ([x, y, _], range) = (field.observer.0, field.range);
         let corners = picture
             .features
             .iter()
@@ -116,12 +90,43 @@ impl Render {
         let farthest = corners.fold(0.0, |far: f64, corner| {
             far.max((corner[0] - x).abs()).max((corner[1] - y).abs())
         });
-        let reach = 1.1 * range;
-        let window = ([x - reach, y - reach], [x + reach, y + reach]);
+        self.sheet((farthest > WIDE * range).then_some(field))
+    }
+
+    /// The whole scene, or what is in range.
+    pub fn sheet(&self, field: Option<&FieldOfView>) -> PlanView {
+        let Size { width, height } = self.size;
+        let window = field.map(|field| {
+            let ([x, y, _], reach) = (field.observer.0, 1.1 * field.range);
+            ([x - reach, y - reach], [x + reach, y + reach])
+        });
         PlanView {
             width,
             height,
-            window: (farthest > WIDE * range).then_some(window),
+            window,
+        }
+    }
+}
+
+/// Who looks, and whereto.
+pub fn observer(field: &FieldOfView) -> Observer {
+    let (heading, angle) = field.direction().unwrap_or((0.0, 360.0));
+    Observer {
+        eye: field.observer.0,
+        heading,
+        angle,
+        range: field.range,
+    }
+}
+
+/// The field of view but for the eye, in words.
+pub fn whereto(field: &FieldOfView) -> String {
+    let range = field.range;
+    match field.direction() {
+        None => format!("all round, {range} m far"),
+        Some((heading, angle)) => {
+            let wide = (100.0 * angle).round() / 100.0;
+            format!("heading {heading}°, {wide}° wide, {range} m far")
         }
     }
 }

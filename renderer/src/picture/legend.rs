@@ -13,8 +13,9 @@ enum Swatch {
     Eye,
 }
 
+/// A line of a legend.
 #[derive(Debug, Clone, PartialEq)]
-struct Row {
+pub(crate) struct Row {
     swatch: Swatch,
     label: &'static str,
     count: Option<usize>,
@@ -56,7 +57,7 @@ const SWATCH: f32 = 14.0;
 
 impl Legend {
     /// `unit` is the size of a typographic point in pixels, `width` what the legend may take.
-    pub(crate) fn new(scene: &PictureScene, shows: Shows, unit: f32, width: f32) -> Self {
+    pub(crate) fn new(scene: &PictureScene, rows: Vec<Row>, unit: f32, width: f32) -> Self {
         let title = style(TITLE * unit, Weight::Bold, palette::INK);
         let subtitle = style(SUBTITLE * unit, Weight::Regular, palette::FADED_INK);
         let small = style(SMALL * unit, Weight::Regular, palette::FADED_INK);
@@ -64,7 +65,7 @@ impl Legend {
             title: title.wrap(&scene.title, width),
             subtitle: subtitle.wrap(&scene.subtitle, width),
             attribution: small.wrap(&scene.attribution, width),
-            rows: rows(scene, shows),
+            rows,
             unit,
             width,
         }
@@ -155,7 +156,7 @@ impl Legend {
 }
 
 /// What the picture shows, and nothing that it does not show.
-fn rows(scene: &PictureScene, shows: Shows) -> Vec<Row> {
+pub(crate) fn rows(scene: &PictureScene, shows: Shows) -> Vec<Row> {
     let mut rows = if shows.columns {
         column_rows(scene)
     } else {
@@ -231,7 +232,7 @@ fn column_rows(scene: &PictureScene) -> Vec<Row> {
 }
 
 /// A row with the number of what has this colour.
-fn counted(fill: Rgb, alpha: f32, label: &'static str, count: usize) -> Row {
+pub(crate) fn counted(fill: Rgb, alpha: f32, label: &'static str, count: usize) -> Row {
     let swatch = Swatch::Patch {
         fill,
         alpha,
@@ -241,6 +242,14 @@ fn counted(fill: Rgb, alpha: f32, label: &'static str, count: usize) -> Row {
         swatch,
         label,
         count: Some(count),
+    }
+}
+
+/// A row for what has this colour, however much of it there is.
+pub(crate) fn uncounted(fill: Rgb, label: &'static str) -> Row {
+    Row {
+        count: None,
+        ..counted(fill, 1.0, label, 0)
     }
 }
 
@@ -262,7 +271,7 @@ fn style(size: f32, weight: Weight, color: Rgb) -> Style {
 }
 
 /// A number with a comma between thousands.
-fn grouped(number: usize) -> String {
+pub(crate) fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (at, digit) in digits.chars().enumerate() {
@@ -362,8 +371,10 @@ mod tests {
             title: "Delft".into(),
             ..Default::default()
         };
-        let low = Legend::new(&scene, ALL, 1.0, 200.0).height();
+        let height =
+            |scene: &PictureScene| Legend::new(scene, rows(scene, ALL), 1.0, 200.0).height();
+        let low = height(&scene);
         scene.subtitle = "an observer in the market square looks to the west".into();
-        assert!(Legend::new(&scene, ALL, 1.0, 200.0).height() > low);
+        assert!(height(&scene) > low);
     }
 }

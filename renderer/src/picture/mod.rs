@@ -1,5 +1,7 @@
 //! What people look at: a scene with an answer, in plan and in perspective.
 
+mod cell_map;
+mod color_scale;
 mod columns;
 mod ground;
 mod image;
@@ -9,11 +11,13 @@ mod perspective;
 mod pipeline;
 mod plan;
 mod shapes;
+mod sheet;
 mod sun;
 mod surface;
 mod text;
 mod view;
 
+pub use cell_map::{PictureCell, Sight, heat_map, sight_map};
 pub use image::Image;
 pub use plan::{PlanView, plan};
 pub use view::View;

@@ -28,6 +28,15 @@ pub(crate) const GLASS: Rgb = Rgb(178, 218, 250);
 pub(crate) const GLASS_EDGE: Rgb = Rgb(244, 250, 255);
 pub(crate) const GLASS_ALPHA: f32 = 0.2;
 
+/// On maps of view cells: all features but the one that is asked for, and that one.
+pub(crate) const MUTED: Rgb = Rgb(198, 196, 192);
+pub(crate) const SUBJECT: Rgb = Rgb(213, 94, 0);
+
+/// View cells from which a feature is seen, may be seen, and is not seen: darker is surer.
+pub(crate) const PROVEN: Rgb = Rgb(20, 98, 160);
+pub(crate) const POSSIBLE: Rgb = Rgb(128, 186, 226);
+pub(crate) const UNSEEN: Rgb = Rgb(233, 236, 238);
+
 /// How strongly occlusion volumes tint what they cover.
 pub(crate) const RECTANGLE_ALPHA: f32 = 0.22;
 

@@ -1,10 +1,10 @@
 //! The perspective: the scene as a camera sees it, with sun, shadows and outlines.
 
-use super::legend::{Legend, Shows};
+use super::legend::{Legend, Shows, rows};
 use super::palette::Rgb;
 use super::pipeline::{Globals, KEY_FORMAT, LIGHT_FORMAT, Pipelines};
-use super::plan::unit;
 use super::shapes::{draw_eye, fill_round, stroke};
+use super::sheet::unit;
 use super::surface::{self, SurfaceVertex, from_linear, to_linear};
 use super::view::Axes;
 use super::{Image, PictureScene, View, ground, palette, sun};
@@ -262,7 +262,7 @@ const PIN_HEIGHT: f32 = 34.0;
 pub(super) fn draw_card(pixmap: &mut Pixmap, scene: &PictureScene, shows: Shows) {
     let unit = unit(pixmap.width(), pixmap.height());
     let (pad, edge) = (16.0 * unit, 18.0 * unit);
-    let legend = Legend::new(scene, shows, unit, CARD_WIDTH * unit);
+    let legend = Legend::new(scene, rows(scene, shows), unit, CARD_WIDTH * unit);
     let size = [CARD_WIDTH * unit + 2.0 * pad, legend.height() + 2.0 * pad];
     let under = [size[0] + 2.0 * unit, size[1] + 2.0 * unit];
     fill_round(

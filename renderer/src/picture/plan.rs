@@ -1,12 +1,12 @@
 //! The plan: the scene from above, north up.
 
-use super::legend::{Legend, Shows};
+use super::legend::{Shows, rows};
 use super::palette::{self, Rgb};
-use super::shapes::{draw_eye, fill, fill_rect, stroke};
-use super::text::{Style, Weight};
-use super::{Area, Image, Observer, PictureFeature, PictureScene, Status};
+use super::shapes::{draw_eye, draw_polygon, fill, stroke};
+use super::sheet::Sheet;
+use super::{Area, Image, Observer, PictureFeature, PictureScene, Status, bounds};
 use crate::error::{Error, Result};
-use tiny_skia::{FillRule, Path, PathBuilder, Pixmap, Transform};
+use tiny_skia::{FillRule, IntRect, Path, PathBuilder, Pixmap, Transform};
 
 /// Size and extent of a plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,12 +19,6 @@ pub struct PlanView {
     /// axis to the shape of the picture.
     pub window: Option<([f64; 2], [f64; 2])>,
 }
-
-/// The longest side of a plan in pixels.
-const LARGEST: u32 = 16_384;
-
-/// The part of the whole width that the legend takes, with bounds in units.
-const LEGEND_SHARE: f32 = 0.24;
 
 /// What a plan shows.
 const SHOWS: Shows = Shows {
@@ -44,46 +38,31 @@ const MARGIN: f64 = 0.02;
 /// [`Error::View`] for a picture without pixels or with more than 16,384 along a side, and for a
 /// window that is empty or not finite.
 pub fn plan(scene: &PictureScene, view: &PlanView) -> Result<Image> {
-    let PlanView { width, height, .. } = *view;
-    let mut pixmap = (width.max(height) <= LARGEST)
-        .then(|| Pixmap::new(width, height))
-        .flatten()
-        .ok_or_else(|| Error::View(format!("a plan of {width} x {height} pixels")))?;
-    let unit = unit(width, height);
-    let legend_width = (LEGEND_SHARE * width as f32).clamp(150.0 * unit, 290.0 * unit);
-    let map_width = (width as f32 - legend_width).max(1.0);
-    let map = Map::new(scene, view, [map_width, height as f32])?;
-    pixmap.fill(palette::PAPER.alpha(1.0));
-    map.draw_streets(&mut pixmap, &scene.streets);
+    let mut sheet = Sheet::new(scene, view)?;
+    let Sheet { pixmap, map, unit } = &mut sheet;
+    map.draw_streets(pixmap, &scene.streets);
     if let Some(observer) = &scene.observer {
-        map.draw_field_of_view(&mut pixmap, observer, unit);
+        map.draw_field_of_view(pixmap, observer, *unit);
     }
-    map.draw_rectangles(&mut pixmap, &scene.rectangles, unit);
-    map.draw_features(&mut pixmap, &scene.features, unit);
+    map.draw_rectangles(pixmap, &scene.rectangles, *unit);
+    map.draw_features(pixmap, &scene.features, *unit);
     if let Some(observer) = &scene.observer {
-        map.outline_field_of_view(&mut pixmap, observer, unit);
-        map.draw_observer(&mut pixmap, observer, unit);
+        map.outline_field_of_view(pixmap, observer, *unit);
+        map.draw_observer(pixmap, observer, *unit);
     }
-    draw_side(&mut pixmap, scene, &map, [map_width, legend_width], unit);
-    Ok(Image::from_pixmap(pixmap))
-}
-
-/// Pixels to the typographic point: text keeps its share of the picture.
-pub(crate) fn unit(width: u32, height: u32) -> f32 {
-    (width as f32 / 1280.0)
-        .min(height as f32 / 800.0)
-        .clamp(0.4, 8.0)
+    sheet.draw_side(scene, rows(scene, SHOWS));
+    Ok(Image::from_pixmap(sheet.pixmap))
 }
 
 /// From metres to pixels.
-struct Map {
+pub(super) struct Map {
     low: [f64; 2],
-    pixels_a_metre: f64,
-    size: [f32; 2],
+    pub(super) pixels_a_metre: f64,
+    pub(super) size: [f32; 2],
 }
 
 impl Map {
-    fn new(scene: &PictureScene, view: &PlanView, size: [f32; 2]) -> Result<Self> {
+    pub(super) fn new(scene: &PictureScene, view: &PlanView, size: [f32; 2]) -> Result<Self> {
         let (a, b) = view
             .window
             .or_else(|| with_margin(scene))
@@ -129,7 +108,7 @@ impl Map {
         path.finish()
     }
 
-    fn draw_streets(&self, pixmap: &mut Pixmap, streets: &[Area]) {
+    pub(super) fn draw_streets(&self, pixmap: &mut Pixmap, streets: &[Area]) {
         let paths: Vec<Path> = streets
             .iter()
             .filter_map(|street| self.street(street))
@@ -183,25 +162,60 @@ impl Map {
             .iter()
             .partition(|feature| feature.status == Status::Outside);
         for feature in outside.into_iter().chain(inside) {
-            self.draw_feature(pixmap, feature, unit);
+            self.draw_feature(pixmap, feature, palette::fill(feature.status), unit);
         }
     }
 
     /// The union of the projected triangles, as one path: no seam shows between them. What of the
     /// outline lies inside is covered by the fill.
-    fn draw_feature(&self, pixmap: &mut Pixmap, feature: &PictureFeature, unit: f32) {
+    pub(super) fn draw_feature(
+        &self,
+        pixmap: &mut Pixmap,
+        feature: &PictureFeature,
+        color: Rgb,
+        unit: f32,
+    ) {
         let seen = feature.triangles.iter().map(|t| t.map(|[x, y, _]| [x, y]));
         let seen = seen.filter(|triangle| self.shows(triangle));
         if let Some(path) = self.path(seen.filter_map(anticlockwise)) {
-            stroke(
-                pixmap,
-                &path,
-                palette::outline(palette::fill(feature.status)),
-                1.0,
-                1.3 * unit,
-            );
-            fill(pixmap, &path, palette::fill(feature.status), 1.0);
+            stroke(pixmap, &path, palette::outline(color), 1.0, 1.3 * unit);
+            fill(pixmap, &path, color, 1.0);
         }
+    }
+
+    /// A ring around a feature, by which it is found where it is small.
+    pub(super) fn draw_ring(
+        &self,
+        pixmap: &mut Pixmap,
+        feature: &PictureFeature,
+        color: Rgb,
+        unit: f32,
+    ) {
+        let corners = feature.triangles.iter().flatten();
+        let Some((low, high)) = bounds(corners.map(|&[x, y, _]| [x, y])) else {
+            return;
+        };
+        let [p, q] = [low, high].map(|corner| self.pixel(corner));
+        let radius = (q[0] - p[0]).hypot(q[1] - p[1]) / 2.0 + 6.0 * unit;
+        let [x, y] = [0, 1].map(|axis| (p[axis] + q[axis]) / 2.0);
+        if let Some(ring) = PathBuilder::from_circle(x, y, radius) {
+            stroke(pixmap, &ring, palette::WHITE, 1.0, 5.0 * unit);
+            stroke(pixmap, &ring, color, 1.0, 2.5 * unit);
+        }
+    }
+
+    /// Where a rectangle is, rounded to whole pixels so that no line shows between neighbours;
+    /// `None` beside the map, and where it is not finite.
+    pub(super) fn rectangle(&self, (a, b): ([f64; 2], [f64; 2])) -> Option<IntRect> {
+        let (p, q) = (self.pixel(a), self.pixel(b));
+        if !p.iter().chain(&q).all(|c| c.is_finite()) {
+            return None;
+        }
+        let [[left, right], [top, bottom]] = [0, 1].map(|axis| {
+            let ends = [p[axis].min(q[axis]), p[axis].max(q[axis])];
+            ends.map(|end| end.clamp(0.0, self.size[axis]).round() as i32)
+        });
+        IntRect::from_ltrb(left, top, right, bottom)
     }
 
     /// False for a triangle beside the map.
@@ -248,123 +262,9 @@ fn with_margin(scene: &PictureScene) -> Option<([f64; 2], [f64; 2])> {
     Some((low.map(|c| c - margin), high.map(|c| c + margin)))
 }
 
-fn draw_polygon(pixmap: &mut Pixmap, points: &[[f32; 2]], color: Rgb) {
-    let mut path = PathBuilder::new();
-    path.move_to(points[0][0], points[0][1]);
-    points[1..].iter().for_each(|p| path.line_to(p[0], p[1]));
-    path.close();
-    if let Some(path) = path.finish() {
-        fill(pixmap, &path, color, 1.0);
-    }
-}
-
-/// The legend's column on the right, with the scale bar, the north arrow and the attribution.
-fn draw_side(
-    pixmap: &mut Pixmap,
-    scene: &PictureScene,
-    map: &Map,
-    [left, width]: [f32; 2],
-    unit: f32,
-) {
-    let height = pixmap.height() as f32;
-    fill_rect(pixmap, [left, 0.0], [width, height], palette::WHITE, 1.0);
-    fill_rect(
-        pixmap,
-        [left, 0.0],
-        [unit.max(1.0), height],
-        palette::RULE,
-        1.0,
-    );
-    let pad = 20.0 * unit;
-    let (x, inner) = (left + pad, width - 2.0 * pad);
-    let legend = Legend::new(scene, SHOWS, unit, inner);
-    legend.draw(pixmap, x, pad);
-    let attribution = height - pad - legend.attribution_height();
-    legend.draw_attribution(pixmap, x, attribution);
-    let bar = attribution - 26.0 * unit;
-    draw_scale_bar(pixmap, map, [x, bar], inner - 40.0 * unit, unit);
-    draw_north(pixmap, [x + inner - 10.0 * unit, bar], unit);
-}
-
-/// A bar of 1, 2 or 5 times a power of ten metres, at most `room` pixels long.
-fn draw_scale_bar(pixmap: &mut Pixmap, map: &Map, [x, y]: [f32; 2], room: f32, unit: f32) {
-    let metres = round_length(f64::from(room) / map.pixels_a_metre);
-    let length = (metres * map.pixels_a_metre) as f32;
-    fill_rect(pixmap, [x, y], [length, 4.0 * unit], palette::INK, 1.0);
-    fill_rect(
-        pixmap,
-        [x + length / 2.0, y + unit],
-        [length / 2.0 - unit, 2.0 * unit],
-        palette::WHITE,
-        1.0,
-    );
-    let style = Style {
-        size: 12.0 * unit,
-        weight: Weight::Regular,
-        color: palette::INK,
-    };
-    style.draw(pixmap, &length_label(metres), x, y - 6.0 * unit);
-}
-
-/// The largest of 1, 2, 5 times a power of ten that is not above `most`.
-fn round_length(most: f64) -> f64 {
-    let power = 10.0_f64.powf(most.log10().floor());
-    [5.0, 2.0]
-        .into_iter()
-        .map(|step| step * power)
-        .find(|&length| length <= most)
-        .unwrap_or(power)
-}
-
-fn length_label(metres: f64) -> String {
-    match metres {
-        m if m >= 1000.0 => format!("{} km", m / 1000.0),
-        m if m >= 1.0 => format!("{m} m"),
-        m => format!("{m:.0e} m"),
-    }
-}
-
-fn draw_north(pixmap: &mut Pixmap, [x, y]: [f32; 2], unit: f32) {
-    let tip = y - 24.0 * unit;
-    let foot = y + 4.0 * unit;
-    let (half, notch) = (7.0 * unit, foot - 6.0 * unit);
-    draw_polygon(
-        pixmap,
-        &[[x, tip], [x - half, foot], [x, notch]],
-        palette::INK,
-    );
-    draw_polygon(
-        pixmap,
-        &[[x, tip], [x + half, foot], [x, notch]],
-        palette::FADED_INK,
-    );
-    let style = Style {
-        size: 12.0 * unit,
-        weight: Weight::Bold,
-        color: palette::INK,
-    };
-    let half = style.width("N") / 2.0;
-    style.draw(pixmap, "N", x - half, tip - 4.0 * unit);
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn lengths_are_round() {
-        for (most, length) in [
-            (1.0, 1.0),
-            (4.9, 2.0),
-            (99.0, 50.0),
-            (100.0, 100.0),
-            (700.0, 500.0),
-        ] {
-            assert!((round_length(most) - length).abs() < 1e-9, "{most}");
-        }
-        assert_eq!(length_label(2000.0), "2 km");
-        assert_eq!(length_label(50.0), "50 m");
-    }
 
     #[test]
     fn both_windings_become_anticlockwise() {

@@ -16,6 +16,17 @@ pub(crate) fn draw_eye(pixmap: &mut Pixmap, [x, y]: [f32; 2], unit: f32) {
     }
 }
 
+/// Fills a polygon.
+pub(crate) fn draw_polygon(pixmap: &mut Pixmap, points: &[[f32; 2]], color: Rgb) {
+    let mut path = PathBuilder::new();
+    path.move_to(points[0][0], points[0][1]);
+    points[1..].iter().for_each(|p| path.line_to(p[0], p[1]));
+    path.close();
+    if let Some(path) = path.finish() {
+        fill(pixmap, &path, color, 1.0);
+    }
+}
+
 /// Fills the union of a path's loops of one orientation.
 pub(crate) fn fill(pixmap: &mut Pixmap, path: &Path, color: Rgb, alpha: f32) {
     pixmap.fill_path(

@@ -1,8 +1,8 @@
 //! Pictures: given pixels have given colours, and everything is where the scene says.
 
 use renderer::{
-    Area, Error, Image, Observer, PictureColumn, PictureFeature, PictureScene, PlanView, Renderer,
-    Status, View, plan,
+    Area, Error, Image, Observer, PictureCell, PictureColumn, PictureFeature, PictureScene,
+    PlanView, Renderer, Sight, Status, View, heat_map, plan, sight_map,
 };
 use std::sync::LazyLock;
 
@@ -91,14 +91,21 @@ impl Plan {
     const WIDTH: u32 = 1000;
     const HEIGHT: u32 = 500;
 
+    const VIEW: PlanView = PlanView {
+        width: Self::WIDTH,
+        height: Self::HEIGHT,
+        window: Some(([84_950.0, 446_950.0], [85_050.0, 447_075.0])),
+    };
+
     fn of(scene: &PictureScene) -> Self {
-        let window = Some(([84_950.0, 446_950.0], [85_050.0, 447_075.0]));
-        let view = PlanView {
-            width: Self::WIDTH,
-            height: Self::HEIGHT,
-            window,
-        };
-        Self(plan(scene, &view).unwrap())
+        Self(plan(scene, &Self::VIEW).unwrap())
+    }
+
+    /// How many pixels of a colour there are in the column beside the map.
+    fn beside(&self, color: [u8; 3]) -> usize {
+        pixels(&self.0)
+            .filter(|&(x, _, c)| x > 770 && c == color)
+            .count()
     }
 
     /// The colour at a place, relative to the observer. The map's middle is x = 0, y = 12.5.
@@ -272,6 +279,99 @@ fn impossible_plans_are_refused() {
         };
         assert!(matches!(plan(&scene(), &view), Err(Error::View(_))));
     }
+}
+
+/// The ends of viridis, and the middle of it.
+const DARKEST: [u8; 3] = [68, 1, 84];
+const MIDDLE: [u8; 3] = [32, 144, 140];
+const LIGHTEST: [u8; 3] = [253, 231, 37];
+const GREY: [u8; 3] = [198, 196, 192];
+
+/// A view cell around a place relative to the observer.
+fn cell<T>([x, y]: [f64; 2], half: f64, told: T) -> PictureCell<T> {
+    let corner = |step: f64| [85_000.0 + x + step, 447_000.0 + y + step];
+    PictureCell {
+        rectangle: (corner(-half), corner(half)),
+        told,
+    }
+}
+
+#[test]
+fn a_heat_map_shows_each_number_in_its_colour() {
+    let cells = [
+        cell([-34.0, -30.0], 10.0, 100),
+        cell([-10.0, 8.0], 4.0, 50),
+        cell([-34.0, -30.0], 10.0, 0),
+        cell([-34.0, 10.0], 10.0, 0),
+        cell([-5.0, 25.0], 2.0, 100),
+    ];
+    let map = Plan(heat_map(&scene(), &cells, "Features", &Plan::VIEW).unwrap());
+    // The greatest number is on top, wherever it stands among the cells.
+    assert_eq!(map.at(-34.0, -30.0), LIGHTEST);
+    assert_eq!(map.at(-34.0, 10.0), DARKEST);
+    assert_eq!(map.at(-10.0, 8.0), MIDDLE);
+    assert_eq!(map.at(-5.0, 25.0), GREY, "features stand over cells");
+    assert_eq!(map.at(2.0, 43.0), GREY, "of any status");
+    // To the pixel, without a soft edge.
+    assert_eq!(map.at(-43.9, -20.2), LIGHTEST);
+    assert_eq!(map.at(-44.3, -20.2), PAPER);
+    assert_eq!(map.at(-43.9, -19.7), PAPER);
+    for color in [DARKEST, MIDDLE, LIGHTEST] {
+        let near = |c: [u8; 3]| (0..3).all(|i| c[i].abs_diff(color[i]) < 6);
+        let bar = pixels(&map.0).filter(|&(x, _, c)| x > 770 && near(c));
+        assert!(bar.count() > 10, "{color:?} is on the bar");
+    }
+    assert!(map.beside(STREET) > 20, "no cell is on the street");
+}
+
+#[test]
+fn a_heat_map_scales_to_what_it_shows() {
+    let mut cells = vec![
+        cell([-34.0, 10.0], 10.0, 40),
+        cell([-34.0, -30.0], 10.0, 60),
+    ];
+    let image = |cells: &[_]| heat_map(&scene(), cells, "Features", &Plan::VIEW).unwrap();
+    let alone = image(&cells);
+    cells.push(cell([900.0, 0.0], 10.0, 100_000));
+    cells.push(cell([f64::NAN, 0.0], 10.0, 100_000));
+    assert_eq!(image(&cells), alone);
+    assert_eq!(Plan(alone).at(-34.0, -30.0), LIGHTEST);
+    let empty = Plan(image(&[]));
+    assert_eq!(empty.at(-34.0, -30.0), PAPER);
+    assert_eq!(empty.at(55.0, 10.0), STREET);
+}
+
+#[test]
+fn a_map_of_sight_shows_from_where_a_feature_is_seen() {
+    const PROVEN: [u8; 3] = [20, 98, 160];
+    const POSSIBLE: [u8; 3] = [128, 186, 226];
+    const UNSEEN: [u8; 3] = [233, 236, 238];
+    const SUBJECT: [u8; 3] = [213, 94, 0];
+    let cells = [
+        cell([-34.0, 40.0], 6.0, Sight::Proven),
+        cell([-34.0, 10.0], 6.0, Sight::Possible),
+        cell([-34.0, -30.0], 6.0, Sight::Hidden),
+        cell([40.0, 10.0], 21.0, Sight::Hidden),
+    ];
+    let map = Plan(sight_map(&scene(), 1, &cells, &Plan::VIEW).unwrap());
+    assert_eq!(map.at(-34.0, 40.0), PROVEN);
+    assert_eq!(map.at(-34.0, 10.0), POSSIBLE);
+    assert_eq!(map.at(-34.0, -30.0), UNSEEN);
+    assert_eq!(map.at(2.0, 43.0), SUBJECT);
+    assert_eq!(map.at(5.0, 25.0), GREY);
+    // The corner of the feature is 7.1 m from its middle, and the ring is 6 points around.
+    let ring = (0..12).map(|step| map.at(7.0 + 0.25 * f64::from(step), 45.0));
+    assert!(ring.into_iter().any(|color| color == SUBJECT));
+    for color in [PROVEN, POSSIBLE, UNSEEN, SUBJECT, GREY] {
+        assert!(
+            (20..200).contains(&map.beside(color)),
+            "{color:?} is in the legend"
+        );
+    }
+    assert_eq!(map.beside(STREET), 0, "all streets have cells");
+    let fewer = Plan(sight_map(&scene(), 1, &cells[..1], &Plan::VIEW).unwrap());
+    assert_eq!(fewer.beside(POSSIBLE), 0);
+    assert!(fewer.beside(STREET) > 20);
 }
 
 /// How far a colour leans to one of the three channels.

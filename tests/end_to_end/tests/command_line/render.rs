@@ -40,6 +40,52 @@ fn pictures_are_drawn_and_named() {
 }
 
 #[test]
+fn maps_of_view_cells_are_drawn() {
+    let folder = tempdir().unwrap();
+    let file = City::blocks().write(folder.path());
+    let scene = TestScene::new("maps of cells");
+    occlusion(&["import", file.to_str().unwrap(), "--scene", &scene.name]).expect(0);
+    let path = folder.path().join("map.png");
+    let draw = |options: &[&str]| {
+        let output = ["--size", "400x300", "-o", path.to_str().unwrap()];
+        occlusion(&[&["render", &scene.name, "--cells"][..], options, &output].concat())
+    };
+    let bare = draw(&[]).expect(3).stderr;
+    let expected = format!("scene \"{}\" has no view cells", scene.name);
+    assert!(
+        bare.contains(&expected) && bare.contains("--cells"),
+        "{bare}"
+    );
+    let cells = [
+        "generate",
+        &scene.name,
+        "--cells",
+        "--range",
+        "60",
+        "--finest",
+        "1",
+    ];
+    occlusion(&cells).expect(0);
+    let mut pictures = Vec::new();
+    for options in [
+        &[][..],
+        &["--observer", OBSERVER, "--range", "30"],
+        &["--feature", "block 1 1"],
+        &["--feature", "1"],
+    ] {
+        let run = draw(options).expect(0);
+        assert_eq!(run.stdout.trim(), path.to_str().unwrap());
+        let png = std::fs::read(&path).unwrap();
+        assert_eq!(png[16..24], [0, 0, 1, 144, 0, 0, 1, 44], "{options:?}");
+        assert!(!pictures.contains(&png), "{options:?}");
+        pictures.push(png);
+    }
+    let missing = draw(&["--feature", "block 9"]).expect(2).stderr;
+    let expected = format!("scene \"{}\" has no feature \"block 9\"", scene.name);
+    assert!(missing.contains(&expected), "{missing}");
+}
+
+#[test]
 fn answers_are_tables_and_json() {
     let folder = tempdir().unwrap();
     let file = City::blocks().write(folder.path());

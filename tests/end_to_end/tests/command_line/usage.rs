@@ -37,6 +37,10 @@ fn wrong_usage_exits_with_2() {
         &["bench"],
         &["bench", "index", "--rows", "0"],
         &["render", "x", "--observer", "1,2,3", "--size", "big"],
+        &["render", "x"],
+        &["render", "x", "--cells", "--plan"],
+        &["render", "x", "--cells", "--range", "9"],
+        &["render", "x", "--observer", "1,2,3", "--feature", "4"],
     ] {
         occlusion(arguments).expect(2);
     }

@@ -339,6 +339,15 @@ fn a_heat_map_scales_to_what_it_shows() {
     let empty = Plan(image(&[]));
     assert_eq!(empty.at(-34.0, -30.0), PAPER);
     assert_eq!(empty.at(55.0, 10.0), STREET);
+    // The street goes on where the map ends, and the cell with it.
+    let window = Some(([84_990.0, 446_990.0], [85_030.0, 447_010.0]));
+    let view = PlanView {
+        window,
+        ..Plan::VIEW
+    };
+    let covered = [cell([40.0, 10.0], 60.0, 7)];
+    let map = Plan(heat_map(&scene(), &covered, "Features", &view).unwrap());
+    assert_eq!(map.beside(STREET), 0);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use super::plan::PlanView;
 use super::sheet::Sheet;
 use super::{Image, PictureScene};
 use crate::error::Result;
-use tiny_skia::{IntRect, Pixmap, Transform};
+use tiny_skia::{IntRect, Transform};
 
 /// A view cell from above, with what is told of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -132,12 +132,14 @@ fn draw_cells<T: Copy>(
             .fill_rect(place.to_rect(), &paint, Transform::identity(), None);
     }
     let bare = uncounted(palette::STREET, "Streets without view cells");
-    Vec::from_iter(shows(&sheet.pixmap, palette::STREET).then_some(bare))
+    Vec::from_iter(shows(sheet, palette::STREET).then_some(bare))
 }
 
-/// Whether a pixel has a colour.
-fn shows(pixmap: &Pixmap, Rgb(r, g, b): Rgb) -> bool {
-    let mut pixels = pixmap.pixels().iter();
+/// Whether a pixel of the map has a colour.
+fn shows(sheet: &Sheet, Rgb(r, g, b): Rgb) -> bool {
+    let lines = sheet.pixmap.pixels().chunks(sheet.pixmap.width() as usize);
+    let across = sheet.map.size[0] as usize;
+    let mut pixels = lines.flat_map(|line| line.iter().take(across));
     pixels.any(|pixel| [pixel.red(), pixel.green(), pixel.blue()] == [r, g, b])
 }
 

@@ -85,6 +85,14 @@ impl CellScene {
         self.tiles[tile].tile.feature(feature)
     }
 
+    /// Erodes all tiles by a square of this half edge, metres, ahead of the queries that need it
+    /// ([`crate::CellQuery::erosions`]). Without, they are eroded one by one when a query meets them.
+    pub fn erode(&self, half: f64) {
+        for tile in &self.tiles {
+            tile.eroded(half);
+        }
+    }
+
     /// How many tiles there are.
     pub(super) fn len(&self) -> usize {
         self.tiles.len()

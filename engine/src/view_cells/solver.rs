@@ -1,6 +1,7 @@
 //! [`CellSolver`], the visible set of a view cell.
 
 use std::collections::{HashMap, HashSet};
+use std::iter::successors;
 
 use glam::DVec3;
 
@@ -24,7 +25,22 @@ pub struct CellQuery {
     /// How far they see, metres (Euclidean); may be infinite.
     pub range: f64,
     /// Parts of the cell whose half edges are no longer than this, metres, are not divided further.
+    /// Infinite: the cell is not divided at all.
     pub precision: f64,
+}
+
+impl CellQuery {
+    /// Half edges of the squares by which what is around is eroded to answer it, metres, the longest first.
+    pub fn erosions(&self) -> impl Iterator<Item = f64> + use<> {
+        let precision = self.precision;
+        let mut first = half(&self.bounds);
+        while is_divided_at_once(first, precision) {
+            first *= 0.5;
+        }
+        successors(Some(first), move |&half| {
+            (half > precision).then_some(0.5 * half)
+        })
+    }
 }
 
 /// Finds what can be seen from anywhere in a view cell.
@@ -132,7 +148,7 @@ impl Search<'_> {
         if !(self.is_open)(&cell) || (self.cancelled)() {
             return;
         }
-        if half(&cell) > LARGEST {
+        if is_divided_at_once(half(&cell), self.precision) {
             for part in parts(&cell) {
                 self.divide(part);
             }
@@ -244,6 +260,11 @@ fn half(cell: &Box3d) -> f64 {
     0.5 * cell.size().truncate().max_element()
 }
 
+/// Whether a cell of this half edge, metres, is divided before anything is eroded.
+fn is_divided_at_once(half: f64, precision: f64) -> bool {
+    half > LARGEST.max(precision)
+}
+
 /// The middle of its upper face, from where nothing is hidden that is not from below it, too.
 pub(super) fn top(cell: &Box3d) -> DVec3 {
     cell.center().with_z(cell.max.z)
@@ -272,4 +293,77 @@ pub(super) fn parts(cell: &Box3d) -> impl Iterator<Item = Box3d> + use<> {
         }
         Some(half)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use geo::{Rect, coord};
+
+    use super::*;
+    use crate::{CellTile, SolidColumn, Tile, TileFeature};
+
+    /// Two rows of houses, one behind the other as seen from below.
+    fn rows() -> Arc<CellTile> {
+        let house = |at: i64| {
+            let (x, y) = ((at % 6) as f64 * 8.0, 20.0 + (at / 6) as f64 * 30.0);
+            let bounds = Box3d::new(DVec3::new(x, y, 0.0), DVec3::new(x + 8.0, y + 10.0, 9.0));
+            let corners = (coord! { x: x, y: y }, coord! { x: x + 8.0, y: y + 10.0 });
+            TileFeature {
+                id: at,
+                envelope: bounds,
+                outline: Vec::new(),
+                roof: None,
+                columns: vec![SolidColumn {
+                    footprint: Rect::new(corners.0, corners.1).to_polygon(),
+                    bottom: 0.0,
+                    top: 9.0,
+                    grounded: true,
+                }],
+            }
+        };
+        let houses: Vec<TileFeature> = (0..12).map(house).collect();
+        Arc::new(CellTile::new(Tile::new(&houses)))
+    }
+
+    fn query(edge: f64, precision: f64) -> CellQuery {
+        let min = DVec3::new(20.0, 0.0, 1.5);
+        CellQuery {
+            bounds: Box3d::new(min, min + DVec3::new(edge, edge, 0.5)),
+            range: 300.0,
+            precision,
+        }
+    }
+
+    #[test]
+    fn the_erosions_of_a_query_are_known_ahead() {
+        let erosions =
+            |edge, precision| -> Vec<f64> { query(edge, precision).erosions().collect() };
+        assert_eq!(erosions(16.0, 0.25), [2.0, 1.0, 0.5, 0.25]);
+        assert_eq!(erosions(3.0, 0.5), [1.5, 0.75, 0.375]);
+        assert_eq!(erosions(16.0, f64::INFINITY), [8.0]);
+        for query in [query(16.0, 0.25), query(16.0, f64::INFINITY)] {
+            let tile = rows();
+            let scene = CellScene::new(vec![Arc::clone(&tile)]);
+            query.erosions().for_each(|half| scene.erode(half));
+            let made = tile.corner_count();
+            CellSolver::default().solve(&scene, &query, &|_| true, &|| false);
+            assert_eq!(tile.corner_count(), made);
+        }
+    }
+
+    #[test]
+    fn an_infinite_precision_divides_nothing() {
+        let scene = CellScene::new(vec![rows()]);
+        let mut solver = CellSolver::default();
+        let mut set = |precision| {
+            let set = solver.solve(&scene, &query(16.0, precision), &|_| true, &|| false);
+            (set.unwrap_or_default(), solver.solves)
+        };
+        let ((divided, _), (whole, solves)) = (set(0.25), set(f64::INFINITY));
+        // From two points, and once from everywhere.
+        assert_eq!((solves, whole.len()), (3, 12));
+        assert!(divided.len() < 12 && divided.iter().all(|spot| whole.contains(spot)));
+    }
 }

@@ -1,7 +1,7 @@
 # Every target is a script in scripts/; see CONTRIBUTING.md.
 # PG_CONFIG=/path/to/pg_config chooses another PostgreSQL, 14 to 18; "make test" without it tests on 15 and 18.
 
-.PHONY: help setup build db db-stop clean-db demo test bench-index bench-point install lint fmt
+.PHONY: help setup build db db-stop clean-db demo test bench-index bench-point bench-cells install lint fmt
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
@@ -32,6 +32,9 @@ bench-index: build ## the indexes of box3d against PostGIS and cube (ROWS=100000
 
 bench-point: build ## live answers against PostGIS, Embree and the way of 2004 (FEATURES="10000 100000" is quicker, FORMAT=markdown, EMBREE=no)
 	@scripts/bench point
+
+bench-cells: build ## view cells, computed and stored, against one erosion, umbrae and Embree (FEATURES=10000 TOWN=300 is quicker, FORMAT=markdown, EMBREE=no)
+	@scripts/bench cells
 
 install: ## copy what "make build" made into the server of PG_CONFIG
 	@scripts/install

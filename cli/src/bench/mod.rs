@@ -1,9 +1,16 @@
 //! `occlusion bench`: measures this extension against others.
 
+mod cells;
 mod format;
 mod index;
+#[cfg(feature = "embree")]
+mod item_buffer;
 mod point;
 mod quantile;
+mod surroundings;
+mod table;
+#[cfg(feature = "embree")]
+mod truth;
 
 use clap::{Args, Subcommand};
 
@@ -12,7 +19,8 @@ use crate::failure::{EXIT_STATUS, Failure};
 const EXAMPLES: &str = "Examples:
   occlusion bench index --rows 100000
   occlusion bench index --format markdown
-  occlusion bench point delft --range 500";
+  occlusion bench point delft --range 500
+  occlusion bench cells delft --cells 20";
 
 /// Measures this extension against others, in one run
 #[derive(Args, Debug)]
@@ -26,6 +34,7 @@ pub struct Bench {
 enum Benchmark {
     Index(index::Index),
     Point(point::Point),
+    Cells(cells::Cells),
 }
 
 impl Bench {
@@ -34,6 +43,7 @@ impl Bench {
         match &self.benchmark {
             Benchmark::Index(index) => index.run(),
             Benchmark::Point(point) => point.run(),
+            Benchmark::Cells(cells) => cells.run(),
         }
     }
 }

@@ -10,7 +10,7 @@ use super::feature::{Feature, InnerEnvelope};
 use super::street::{Street, polygon};
 use crate::database::quoted;
 use crate::failure::Failure;
-use crate::sql_types::Box3d;
+use crate::sql_types::{Box3d, Ring};
 
 /// Whether the envelope of a feature meets a box, if there is one.
 const IN_AREA: &str =
@@ -33,19 +33,27 @@ pub fn load(client: &mut impl GenericClient, scene: &str) -> Result<Scene, Failu
     let schema = quoted(scene);
     Ok(Scene {
         features: features(client, &schema, None)?,
-        streets: streets(client, &schema)?,
+        streets: streets(client, &schema, None)?,
         attribution: attribution(client, &schema)?,
     })
 }
 
 /// Reads the features whose envelopes meet a box.
-#[cfg(feature = "embree")]
 pub fn load_over(
     client: &mut impl GenericClient,
     scene: &str,
     area: Box3d,
 ) -> Result<Vec<Feature>, Failure> {
     features(client, &quoted(scene), Some(area))
+}
+
+/// Reads the streets that meet a box in plan.
+pub fn streets_over(
+    client: &mut impl GenericClient,
+    scene: &str,
+    area: Box3d,
+) -> Result<Vec<Street>, Failure> {
+    streets(client, &quoted(scene), Some(area))
 }
 
 impl Scene {
@@ -137,9 +145,25 @@ fn mesh(vertices: &[f64], triangles: &[i32]) -> Mesh {
     }
 }
 
-fn streets(client: &mut impl GenericClient, schema: &str) -> Result<Vec<Street>, Failure> {
-    let statement = format!("SELECT area, eye_low, eye_high FROM {schema}.street ORDER BY id");
-    let rows = client.query(&statement, &[])?;
+/// All streets, or those in an area.
+fn streets(
+    client: &mut impl GenericClient,
+    schema: &str,
+    area: Option<Box3d>,
+) -> Result<Vec<Street>, Failure> {
+    let statement = format!(
+        "SELECT area, eye_low, eye_high FROM {schema}.street \
+         WHERE $1::polygon IS NULL OR area[1] && $1 ORDER BY id"
+    );
+    let plan = area.map(|Box3d { min, max }| {
+        Ring(vec![
+            [min[0], min[1]],
+            [max[0], min[1]],
+            [max[0], max[1]],
+            [min[0], max[1]],
+        ])
+    });
+    let rows = client.query(&statement, &[&plan])?;
     Ok(rows
         .iter()
         .filter_map(|row| Street::new(row.get(0), row.get(1), row.get(2)))

@@ -7,9 +7,7 @@ mod surfaces;
 mod volume;
 
 pub use feature::Feature;
-#[cfg(feature = "embree")]
-pub use load::load_over;
-pub use load::{Scene, load};
+pub use load::{Scene, load, load_over, streets_over};
 pub use street::{Street, rings};
 pub use surfaces::{Surfaces, number};
 pub use volume::{Volume, count_volumes, stream_volumes};

@@ -12,13 +12,13 @@ use clap::builder::RangedU64ValueParser;
 use postgres::Client;
 
 use crate::bench::format::Format;
+use crate::bench::table::Table;
 use crate::database::Database;
 use crate::failure::{EXIT_STATUS, Failure};
 use crate::terminal;
 #[cfg(feature = "embree")]
 use crate::terminal::BAD;
 use contender::Contender;
-use table::Table;
 
 const EXAMPLES: &str = "Examples:
   occlusion bench point city --database postgresql://me@localhost/scratch

@@ -1,18 +1,8 @@
-//! [`Table`], the ways beside one another.
+//! How long the ways take, as a [`Table`].
 
 use super::contender::Contender;
 use super::race::Figures;
-use crate::bench::format::Format;
-
-/// A row for each way, ours first. All columns but the first hold numbers.
-pub struct Table {
-    /// What the columns hold.
-    pub heading: Vec<&'static str>,
-    /// As many cells each.
-    pub rows: Vec<Vec<String>>,
-    /// Sentences below it.
-    pub remarks: Vec<String>,
-}
+use crate::bench::table::{Table, optional};
 
 impl Table {
     /// How long the ways take.
@@ -46,16 +36,4 @@ impl Table {
             remarks: Vec::new(),
         }
     }
-
-    /// As text.
-    pub fn text(&self, format: Format) -> String {
-        let right: Vec<bool> = (0..self.heading.len()).map(|column| column > 0).collect();
-        let table = format.table(&self.heading, &right, &self.rows);
-        format!("{table}\n\n{}\n", self.remarks.join("\n"))
-    }
-}
-
-/// A number that may not have been measured.
-pub fn optional(number: Option<f64>, digits: usize) -> String {
-    number.map_or("–".to_owned(), |number| format!("{number:.digits$}"))
 }

@@ -235,3 +235,141 @@ fn an_answer_that_misses_something_ends_it_with_an_error() {
     let fault = "false occlusion: \"visible_features\" leaves out Building ";
     assert!(run.stderr.contains(fault), "{run:?}");
 }
+
+/// The ways to find what can be seen from a cell whose sets are complete.
+const COMPLETE_SETS: [&str; 3] = ["view cell", "one erosion", "umbra of one occluder"];
+
+fn bench_cells(
+    program: fn(&[&str]) -> Run,
+    database: &TestDatabase,
+    scene: &str,
+    more: &[&str],
+) -> Run {
+    let mut arguments = vec!["bench", "cells", scene, "--database", &database.url];
+    arguments.extend(["--cells", "3", "--range", "100", "--format", "markdown"]);
+    arguments.extend(more);
+    program(&arguments)
+}
+
+#[test]
+fn view_cells_are_measured_as_computed_and_as_stored() {
+    let mut database = town("bench_cells");
+    let sizes = ["--edge", "4", "--edge", "8", "--eyes", "9"];
+    let run = bench_cells(occlusion, &database, "a town", &sizes).expect(0);
+    assert!(run.stderr.contains("built without Embree"), "{run:?}");
+    let text = &run.stdout;
+    assert_eq!(text.matches("### a town, cells of ").count(), 2, "{text}");
+    assert!(!text.contains("view cells, "), "{text}");
+    let rows = cells(text);
+    let of = |way: &str, column: usize| -> Vec<f64> {
+        let rows = rows.iter().filter(|row| row[0] == way);
+        let number = |row: &Vec<&str>| row[column].parse().unwrap_or_else(|_| panic!("{row:?}"));
+        rows.map(number).collect()
+    };
+    for way in COMPLETE_SETS {
+        assert_eq!(of(way, 1).len(), 2, "{way}: {text}");
+        assert!(of(way, 5).iter().all(|&time| time >= 0.0), "{text}");
+    }
+    let (ours, whole, umbra) = (
+        of(COMPLETE_SETS[0], 6),
+        of(COMPLETE_SETS[1], 6),
+        of(COMPLETE_SETS[2], 6),
+    );
+    for at in 0..2 {
+        assert!(
+            0.0 < ours[at] && ours[at] <= whole[at] && ours[at] <= umbra[at],
+            "{text}"
+        );
+    }
+    assert!(
+        of(COMPLETE_SETS[0], 7).iter().all(|&ratio| ratio >= 0.95),
+        "{text}"
+    );
+
+    let call = "CALL occlusion.generate_view_cells('a town', range => 60, smallest => 16)";
+    database.client.batch_execute(call).unwrap();
+    let few = ["--edge", "16", "--eyes", "9"];
+    let text = &bench_cells(occlusion, &database, "a town", &few)
+        .expect(0)
+        .stdout;
+    assert!(text.contains(" view cells, 60 m"), "{text}");
+    let rows = cells(text);
+    let row = |name: &str| rows.iter().find(|row| row[0] == name).expect(name);
+    for query in ["visible_set", "visible_from", "visible_features, 60 m"] {
+        let row = row(query);
+        assert!(row[1] == "9" && row[2] != "0.0", "{row:?}");
+    }
+    assert!(
+        text.contains("| visible_features, 61 m, which no cell answers | 9 |"),
+        "{text}"
+    );
+    let ratio = |name: &str| -> f64 { row(name)[2].parse().unwrap() };
+    assert_eq!(ratio("view cells, with indexes"), 1.0);
+    assert!(
+        ratio("plain table, with indexes") > ratio("visible"),
+        "{text}"
+    );
+    for relation in [
+        "view_cell",
+        "view_cell_box",
+        "view_cell_visible",
+        "visible_cell",
+        "visible_feature",
+    ] {
+        assert!(ratio(relation) > 0.0, "{text}");
+    }
+    assert!(!database.finds(SCHEMA, "occlusion_bench_cells"));
+    occlusion(&["bench", "cells", "atlantis", "--database", &database.url]).expect(3);
+}
+
+#[test]
+fn cells_are_sampled_and_what_is_missed_is_told() {
+    let database = town("bench_cells_truth");
+    let run = bench_cells(occlusion_with_embree, &database, "a town", &["--edge", "8"]).expect(0);
+    let text = &run.stdout;
+    let rows = cells(text);
+    let row = |way: &str| rows.iter().find(|row| row[0] == way).expect(way);
+    for way in COMPLETE_SETS {
+        assert_eq!(row(way)[9], "0", "{text}");
+    }
+    let missed = |way: &str| -> f64 {
+        let cell = row(way)[9].trim_end_matches(" %");
+        cell.parse().unwrap_or_else(|_| panic!("{text}"))
+    };
+    let sampled = ["9 eyes, 6 × 128²", "25 eyes, 6 × 128²", "25 eyes, 6 × 512²"]
+        .map(|eyes| missed(&format!("Embree, {eyes}")));
+    assert!(
+        sampled[0] >= sampled[1] && sampled[1] >= sampled[2],
+        "{text}"
+    );
+    assert!(text.contains("Exact rays meet "), "{text}");
+}
+
+#[test]
+fn a_cell_that_misses_something_ends_it_with_an_error() {
+    let mut database = TestDatabase::new("bench_cells_fault");
+    let folder = tempdir().unwrap();
+    let city = City::blocks().write(folder.path());
+    let city = city.to_str().unwrap();
+    let import = [
+        "import",
+        city,
+        "--scene",
+        "blocks",
+        "--database",
+        &database.url,
+    ];
+    occlusion(&import).expect(0);
+    let more = ["--range", "300", "--edge", "4", "--cells", "8"];
+    let arguments = |url| [&["bench", "cells", "blocks", "--database", url], &more[..]].concat();
+    occlusion_with_embree(&arguments(&database.url)).expect(0);
+    // Every other house is lower than what counts as solid of it.
+    let change = "UPDATE blocks.mesh SET vertices = (
+            SELECT array_agg(CASE WHEN i % 3 = 0 THEN least(v, 1) ELSE v END ORDER BY i)
+            FROM unnest(vertices) WITH ORDINALITY AS u (v, i))
+        WHERE feature % 2 = 0";
+    database.client.batch_execute(change).unwrap();
+    let run = occlusion_with_embree(&arguments(&database.url)).expect(1);
+    let fault = "false occlusion: \"view cell\" leaves out Building ";
+    assert!(run.stderr.contains(fault), "{run:?}");
+}

@@ -36,6 +36,7 @@ fn wrong_usage_exits_with_2() {
         &["verify", "x", "--resolution", "0"],
         &["bench"],
         &["bench", "index", "--rows", "0"],
+        &["bench", "cells", "x", "--edge", "0"],
         &["render", "x", "--observer", "1,2,3", "--size", "big"],
         &["render", "x"],
         &["render", "x", "--cells", "--plan"],
@@ -55,6 +56,7 @@ fn help_has_examples_and_exit_statuses() {
         "verify",
         "render",
         "bench index",
+        "bench cells",
     ] {
         let mut arguments: Vec<&str> = command.split(' ').collect();
         arguments.extend(["--help", "--database", "x"]);

@@ -1,10 +1,7 @@
 //! [`Trial`], what answers are worth, and item buffers beside them.
 
-mod item_buffer;
 mod report;
 mod score;
-mod surroundings;
-mod truth;
 
 use std::collections::HashSet;
 use std::time::{Duration, Instant};
@@ -16,10 +13,13 @@ use postgres::{Client, Row};
 use super::contender::{Claim, Contender};
 use super::observers::SCHEMA;
 use super::race::milliseconds;
+use crate::bench::item_buffer::{ItemBuffer, Sightings};
+use crate::bench::surroundings::Surroundings;
+use crate::bench::truth::Truth;
 use crate::failure::Failure;
-use item_buffer::{ItemBuffer, Sightings};
+use crate::scene::{Feature, Surfaces};
+use crate::sql_types::Box3d;
 use score::Score;
-use surroundings::Surroundings;
 
 /// Pixels along a side of each face of the item buffers, ascending. The truth begins with the last.
 const RESOLUTIONS: [u32; 3] = [128, 512, 2048];
@@ -64,14 +64,18 @@ pub fn run(
     let mut spent = vec![Duration::ZERO; contenders.len()];
     for (id, eye) in eyes(client, observers)? {
         let began = Instant::now();
-        let around = Surroundings::load(client, scene, eye, range)?;
+        let place = Box3d { min: eye, max: eye };
+        let around = Surroundings::load(client, scene, &place, range)?;
+        let surfaces = Surfaces::seen_from(&around.features, std::iter::once(eye[2]));
         trial.reading.push(milliseconds(began));
         let began = Instant::now();
-        let buffer = ItemBuffer::new(&device, eye, &around.surfaces.triangles);
+        let buffer = ItemBuffer::new(&device, eye, &surfaces.triangles);
         trial.building.push(milliseconds(began));
-        trial.triangles.push(around.surfaces.triangles.len() as f64);
+        trial.triangles.push(surfaces.triangles.len() as f64);
         let (shown, finest) = trial.look(&around, &buffer);
-        let visible = truth::visible(&around, &buffer, &finest, eye)?;
+        let truth = Truth::new(&around.features, &surfaces)?;
+        let in_range = |feature: &Feature| around.is_in_range(feature, eye);
+        let visible = truth.visible(&buffer, &finest, in_range);
         for (buffer, shown) in trial.buffers.iter_mut().zip(&shown) {
             buffer.score.add(shown, &visible);
         }
@@ -120,7 +124,7 @@ impl Trial {
         let look = |(figures, resolution): (&mut Buffer, u32)| {
             let began = Instant::now();
             last = buffer.look(resolution);
-            let shown = around.shown(&last);
+            let shown = around.shown(&last, buffer.eye);
             figures.times.push(milliseconds(began));
             shown
         };

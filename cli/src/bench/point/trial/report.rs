@@ -1,8 +1,8 @@
 //! How a trial is told.
 
 use super::{Buffer, Trial};
-use crate::bench::point::table::{Table, optional};
 use crate::bench::quantile::quantile;
+use crate::bench::table::{Table, optional, percent};
 use crate::terminal;
 
 impl Trial {
@@ -46,13 +46,4 @@ fn row(buffer: &mut Buffer, ours: f64) -> Vec<String> {
         optional(score.over_estimate(), 3),
         percent(score.missed()),
     ]
-}
-
-/// A share, which is "0" only where it is none.
-fn percent(share: Option<f64>) -> String {
-    match share {
-        Some(0.0) => "0".to_owned(),
-        Some(share) => format!("{:.2} %", 100.0 * share),
-        None => optional(None, 2),
-    }
 }

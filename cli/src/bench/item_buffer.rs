@@ -13,10 +13,12 @@ const TILE: u32 = 16;
 const ARRIVED: f32 = 1.0 - 1e-4;
 
 /// Triangles in a tree of Embree. It computes in single precision, so they are placed relative to
-/// the eye, where numbers are finest. Everything is on the calling thread, but for the building.
+/// a point near the eyes, where numbers are finest. Everything is on the calling thread, but for the building.
 pub struct ItemBuffer<'a> {
     scene: Scene<'a>,
-    eye: Point,
+    origin: Point,
+    /// From where it looks, metres.
+    pub eye: Point,
     /// The feature that each triangle belongs to.
     owners: Vec<u32>,
 }
@@ -25,7 +27,7 @@ pub struct ItemBuffer<'a> {
 pub struct Sightings(Vec<Option<Point>>);
 
 impl<'a> ItemBuffer<'a> {
-    /// Builds the tree.
+    /// Builds the tree for an eye, and others near it.
     pub fn new(device: &'a Device, eye: Point, triangles: &[(u32, Triangle)]) -> Self {
         let mut scene = Scene::new(device);
         if !triangles.is_empty() {
@@ -34,6 +36,7 @@ impl<'a> ItemBuffer<'a> {
         scene.commit();
         Self {
             scene,
+            origin: eye,
             eye,
             owners: triangles.iter().map(|(owner, _)| *owner).collect(),
         }
@@ -82,10 +85,12 @@ impl<'a> ItemBuffer<'a> {
 
     /// Casts rays from the eye, as one stream.
     fn cast(&self, rays: &mut Vec<RayHit>, directions: impl Iterator<Item = Point>) {
+        let origin: [f32; 3] =
+            std::array::from_fn(|axis| (self.eye[axis] - self.origin[axis]) as f32);
         rays.clear();
         rays.extend(directions.map(|direction| {
             let direction = direction.map(|component| component as f32);
-            RayHit::new(Ray::new([0.0; 3].into(), direction.into()))
+            RayHit::new(Ray::new(origin.into(), direction.into()))
         }));
         // Nothing has changed since the tree was built, so that this only hands it out.
         let tree = self.scene.commit();
@@ -188,6 +193,19 @@ mod tests {
         assert_eq!(buffer.aim(3, &targets), [at(20.0, 2.5)]);
         // The wall in front is the feature itself.
         assert_eq!(buffer.aim(1, &targets), targets);
+    }
+
+    #[test]
+    fn one_tree_serves_eyes_beside_and_behind() {
+        let device = Device::new();
+        let mut buffer = ItemBuffer::new(&device, EYE, &scene()[..4]);
+        let mut seen_from = |x: f64, y: f64| -> Vec<u32> {
+            buffer.eye = [EYE[0] + x, EYE[1] + y, EYE[2]];
+            buffer.look(128).numbers().collect()
+        };
+        assert_eq!(seen_from(0.0, 0.0), [1]);
+        assert_eq!(seen_from(0.0, 6.0), [1, 2]);
+        assert_eq!(seen_from(22.0, 0.0), [2]);
     }
 
     #[test]

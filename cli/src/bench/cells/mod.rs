@@ -58,7 +58,7 @@ pub struct Cells {
           value_parser = metres)]
     edges: Vec<f64>,
     /// Different cells of each size
-    #[arg(long, value_name = "N", default_value_t = 24,
+    #[arg(long, value_name = "N", default_value_t = 20,
           value_parser = RangedU64ValueParser::<usize>::new().range(1..=100_000))]
     cells: usize,
     /// How far eyes see, metres

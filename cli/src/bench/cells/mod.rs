@@ -140,7 +140,7 @@ impl Cells {
             }
             is_sound &= trial.false_occlusions.is_empty();
             let title = format!("{scene}, cells of {edge} m, {} m", self.range);
-            self.print(&title, &trial.table(&ways, window.count(edge)));
+            self.print(&title, &trial.table(window.count(edge)));
         }
         Ok(is_sound)
     }

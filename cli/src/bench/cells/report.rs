@@ -1,20 +1,20 @@
 //! How a trial is told.
 
+use super::score::Score;
 use super::trial::Trial;
-use super::way::Way;
 use crate::bench::table::{Table, optional};
 use crate::terminal::grouped;
 
 impl Trial {
     /// A row for each way; `covering` cells of this size cover the window.
-    pub fn table(&self, ways: &[Box<dyn Way + '_>], covering: usize) -> Table {
+    pub fn table(&self, covering: usize) -> Table {
         let ours = self.scores[0].median();
-        let row = |(way, score): (&Box<dyn Way + '_>, &super::score::Score)| {
+        let row = |score: &Score| {
             vec![
-                way.name().to_owned(),
+                score.name.clone(),
                 format!("{:.2}", score.median()),
                 format!("{:.2}", score.p95()),
-                format!("{:.2}", score.median() / ours),
+                format!("{:.3}", score.median() / ours),
                 format!("{:.2}", score.prepared),
                 format!("{:.2}", score.in_total(covering)),
                 format!("{:.1}", score.held()),
@@ -35,7 +35,7 @@ impl Trial {
         ];
         let mut table = Table {
             heading: heading.into(),
-            rows: ways.iter().zip(&self.scores).map(row).collect(),
+            rows: self.scores.iter().map(row).collect(),
             remarks: vec![format!(
                 "{} cells, of {} that cover the streets of the window. From points {:.1} features are seen in the \
                  mean; {} of all are not in the set of their cell.",

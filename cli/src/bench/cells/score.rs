@@ -7,6 +7,8 @@ use crate::bench::quantile::quantile;
 /// A way, summed over cells.
 #[derive(Clone, Debug)]
 pub struct Score {
+    /// What the way is called.
+    pub name: String,
     is_complete: bool,
     /// Seconds to make what all cells share.
     pub prepared: f64,
@@ -21,8 +23,9 @@ pub struct Score {
 
 impl Score {
     /// Of no cells yet.
-    pub fn new(is_complete: bool, prepared: f64) -> Self {
+    pub fn new(name: &str, is_complete: bool, prepared: f64) -> Self {
         Self {
+            name: name.to_owned(),
             is_complete,
             prepared,
             times: Vec::new(),
@@ -105,7 +108,7 @@ mod tests {
 
     #[test]
     fn scores_are_sums_over_cells() {
-        let mut score = Score::new(true, 2.0);
+        let mut score = Score::new("a way", true, 2.0);
         score.add(
             &HashSet::from([1, 2, 3]),
             &HashSet::from([1, 2]),
@@ -118,6 +121,6 @@ mod tests {
         assert_eq!((score.missed, score.visible), (1, 2));
         // Two seconds, shared by a thousand cells.
         assert_eq!(score.in_total(1000), 4.0);
-        assert_eq!(Score::new(false, 0.0).worst(), None);
+        assert_eq!(Score::new("another", false, 0.0).worst(), None);
     }
 }

@@ -62,7 +62,7 @@ pub fn run(
 fn prepared(way: &mut dyn Way) -> Score {
     let began = Instant::now();
     way.prepare();
-    Score::new(way.is_complete(), began.elapsed().as_secs_f64())
+    Score::new(way.name(), way.is_complete(), began.elapsed().as_secs_f64())
 }
 
 fn fault(way: &str, cell: &Box3d, features: &[Feature], id: &i64) -> String {

@@ -38,7 +38,7 @@ BEGIN
             visible occlusion.feature_set NOT NULL DEFAULT '{}'
         );
         CREATE INDEX view_cell_block_open ON %1$I.view_cell_block (id) WHERE NOT done;
-        CREATE INDEX view_cell_block_visible ON %1$I.view_cell_block USING gin (visible);
+        CREATE INDEX view_cell_block_visible ON %1$I.view_cell_block USING gin (visible) WITH (fastupdate = off);
         COMMENT ON TABLE %1$I.view_cell_block IS 'squares of the view region, each covered with view cells in one transaction; derived';
         COMMENT ON COLUMN %1$I.view_cell_block.id IS 'number, along a curve through the plan';
         COMMENT ON COLUMN %1$I.view_cell_block.area IS 'the square, at height 0';

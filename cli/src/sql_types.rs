@@ -33,6 +33,15 @@ impl Box3d {
         (x * x + y * y + z * z).sqrt()
     }
 
+    /// Metres between two closed boxes.
+    pub fn gap(&self, other: &Self) -> f64 {
+        let [x, y, z]: [f64; 3] = std::array::from_fn(|axis| {
+            let apart = (self.min[axis] - other.max[axis]).max(other.min[axis] - self.max[axis]);
+            apart.max(0.0)
+        });
+        (x * x + y * y + z * z).sqrt()
+    }
+
     /// Whether a point is in the closed box.
     pub fn holds(&self, point: [f64; 3]) -> bool {
         (0..3).all(|axis| (self.min[axis]..=self.max[axis]).contains(&point[axis]))
@@ -101,6 +110,16 @@ impl ToSql for Point3d {
     }
 
     to_sql_checked!();
+}
+
+impl<'a> FromSql<'a> for Point3d {
+    fn from_sql(_: &Type, raw: &'a [u8]) -> Result<Self, Refused> {
+        Ok(Self(numbers(raw)?))
+    }
+
+    fn accepts(ty: &Type) -> bool {
+        <Self as ToSql>::accepts(ty)
+    }
 }
 
 impl ToSql for Ring {
@@ -184,5 +203,12 @@ mod tests {
         };
         assert_eq!(bounds.distance([0.5, 1.0, 2.0]), 0.0);
         assert_eq!(bounds.distance([4.0, 5.0, 2.0]), 5.0);
+        let other = Box3d {
+            min: [4.0, 5.0, 1.0],
+            max: [9.0; 3],
+        };
+        assert_eq!(bounds.gap(&other), 5.0);
+        assert_eq!(other.gap(&bounds), 5.0);
+        assert_eq!(bounds.gap(&bounds), 0.0);
     }
 }

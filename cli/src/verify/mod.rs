@@ -1,6 +1,7 @@
 //! `occlusion verify`: holds every claim of a scene against code that shares nothing with what made
 //! it.
 
+mod cells;
 mod fault;
 mod lottery;
 mod observers;
@@ -14,13 +15,14 @@ use std::time::Instant;
 
 use clap::Args;
 use clap::builder::RangedU64ValueParser;
-use postgres::IsolationLevel;
+use postgres::{IsolationLevel, Transaction};
 use renderer::Renderer;
 
 use crate::database::{Database, shell_word};
 use crate::failure::{EXIT_STATUS, Failure};
 use crate::scene::{self, Scene, Surfaces};
 use crate::terminal;
+use cells::{CellChecker, CellTally};
 use fault::Fault;
 use lottery::Lottery;
 use report::Report;
@@ -30,7 +32,8 @@ use truth::Truth;
 
 const EXAMPLES: &str = "Examples:
   occlusion verify delft
-  occlusion verify delft --observers 10 --resolution 4096 --json";
+  occlusion verify delft --observers 10 --resolution 4096 --json
+  occlusion verify delft --observers 0 --cells";
 
 /// Proves that nothing visible is missing from the answers, or shows what is
 ///
@@ -39,6 +42,9 @@ const EXAMPLES: &str = "Examples:
 /// as cube maps of feature numbers, and rays are aimed at each feature that the answer left out, or has
 /// though no pixel shows it.
 /// What is disputed is recast exactly.
+///
+/// With --cells every witness of every view cell is checked by exact arithmetic, and rays are aimed at what
+/// the cell leaves out, from its corners and edges, the top and the bottom of its eyes, and places inside.
 #[derive(Args, Debug)]
 #[command(after_help = format!("{EXAMPLES}\n\n{EXIT_STATUS}"))]
 pub struct Verify {
@@ -71,6 +77,9 @@ pub struct Verify {
     /// Points all over the solid columns that must be inside, besides the proofs
     #[arg(long, value_name = "N", default_value_t = 100_000)]
     samples: usize,
+    /// Check every view cell, too
+    #[arg(long)]
+    cells: bool,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -107,6 +116,10 @@ impl Verify {
         let renderer = Renderer::new()?;
         let surfaces = Surfaces::of(&scene);
         let truth = Truth::new(&scene, &surfaces, self.rays, self.seed)?;
+        let of_cells = match self.cells {
+            true => Some(self.check_cells(&mut transaction, &scene, &truth, &mut faults)?),
+            false => None,
+        };
         let mesh = surfaces.mesh();
         let buffer = renderer.item_buffer(&mesh, self.resolution)?;
         let mut checker = Checker::new(&scene, &truth, buffer, self.resolution);
@@ -130,6 +143,7 @@ impl Verify {
             counts: counts(&scene, count),
             on_volumes: observers.on_volumes,
             tally,
+            of_cells,
             faults: &faults,
             adapter: renderer.adapter_name(),
             stored_seconds,
@@ -140,6 +154,25 @@ impl Verify {
             false => anstream::print!("{report}"),
         }
         Ok(faults.is_empty())
+    }
+
+    fn check_cells(
+        &self,
+        client: &mut Transaction<'_>,
+        scene: &Scene,
+        truth: &Truth,
+        faults: &mut Vec<Fault>,
+    ) -> Result<CellTally, Failure> {
+        let cells = scene::view_cells(client, &self.scene)?;
+        let mut checker = CellChecker::new(scene, truth, self.seed)?;
+        let bar = terminal::bar(cells.len(), "view cells");
+        for cell in &cells {
+            let witnesses = scene::witnesses(client, &self.scene, cell.id)?;
+            faults.extend(checker.check(cell, &witnesses));
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        Ok(checker.tally)
     }
 
     fn require_streets(&self, scene: &Scene) -> Result<(), Failure> {

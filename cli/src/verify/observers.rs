@@ -69,14 +69,15 @@ fn in_street(scene: &Scene, streets: &Streets, rng: &mut Rng) -> Option<[f64; 3]
 }
 
 /// Streets by area.
-struct Streets<'a> {
+pub struct Streets<'a> {
     streets: &'a [Street],
     /// For each street the area of it and all before it.
     areas: Vec<f64>,
 }
 
 impl<'a> Streets<'a> {
-    fn new(streets: &'a [Street]) -> Self {
+    /// Those of a scene.
+    pub fn new(streets: &'a [Street]) -> Self {
         let areas = streets.iter().scan(0.0, |sum, street| {
             *sum += street.area.unsigned_area();
             Some(*sum)
@@ -89,7 +90,7 @@ impl<'a> Streets<'a> {
 
     /// The lowest and highest eye at a place within a range of heights, by the first street that
     /// holds some, its border included.
-    fn eyes_at(&self, [x, y]: [f64; 2], [low, high]: [f64; 2]) -> Option<[f64; 2]> {
+    pub fn eyes_at(&self, [x, y]: [f64; 2], [low, high]: [f64; 2]) -> Option<[f64; 2]> {
         let heights = |street: &Street| {
             let (low, high) = (low.max(street.eye_low), high.min(street.eye_high));
             let is_here = low <= high && street.area.intersects(&Coord { x, y });

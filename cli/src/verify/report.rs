@@ -5,6 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use serde_json::{Value, json};
 
 use super::Verify;
+use super::cells::CellTally;
 use super::fault::Fault;
 use super::tally::Tally;
 use crate::terminal::{BAD, FAINT, GOOD, grouped, percent};
@@ -22,6 +23,8 @@ pub struct Report<'a> {
     pub on_volumes: usize,
     /// What the observers saw.
     pub tally: Tally,
+    /// What was checked of the view cells, if that was asked.
+    pub of_cells: Option<CellTally>,
     /// What is wrong.
     pub faults: &'a [Fault],
     /// What drew.
@@ -76,6 +79,13 @@ impl Report<'_> {
             "false_occlusions": self.false_occlusions(),
             "stored_faults": self.faults.len() - self.false_occlusions(),
             "faults": self.faults.iter().map(fault).collect::<Vec<_>>(),
+            "view_cells": self.of_cells.as_ref().map(|cells| json!({
+                "checked": cells.cells,
+                "visible": cells.visible,
+                "proven": cells.proven,
+                "eyes": cells.eyes,
+                "rays": cells.rays,
+            })),
             "adapter": self.adapter,
             "stored_seconds": self.stored_seconds,
             "seconds": self.seconds,
@@ -89,6 +99,24 @@ impl Report<'_> {
             .iter()
             .map(|&(name, count)| (name, grouped(count)))
             .collect();
+        if let Some(cells) = &self.of_cells {
+            let proven = percent(cells.proven, cells.visible);
+            rows.extend([
+                ("view cells", grouped(cells.cells)),
+                (
+                    "proven",
+                    format!(
+                        "{} of {}: {proven}",
+                        grouped(cells.proven),
+                        grouped(cells.visible)
+                    ),
+                ),
+                (
+                    "eyes in cells",
+                    format!("{}, {} rays", grouped(cells.eyes), grouped(cells.rays)),
+                ),
+            ]);
+        }
         let pairs = |part: usize| format!("{} of {}", grouped(part), grouped(tally.in_range));
         rows.extend([
             (

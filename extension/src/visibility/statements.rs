@@ -126,6 +126,7 @@ impl Ask {
                  CROSS JOIN LATERAL occlusion.unnest(c.visible OPERATOR(occlusion.-) c.unproven) AS s (slot) \
                  JOIN {scene}.feature AS f ON f.slot OPERATOR(pg_catalog.=) s.slot \
                  WHERE c.id OPERATOR(pg_catalog.=) $1"
+            ),
             Self::Slotted => format!(
                 "SELECT id::pg_catalog.int8, envelope::occlusion.box3d FROM {scene}.feature \
                  WHERE slot OPERATOR(pg_catalog.=) ANY ($1)"

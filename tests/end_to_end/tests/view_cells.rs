@@ -297,3 +297,55 @@ fn unseen(scene: &mut TestScene) -> i64 {
          WHERE NOT s.visible OPERATOR(occlusion.@>) f.slot::bigint AND l.visible",
     )
 }
+
+/// What `verify --cells` says of a scene.
+fn check_cells(scene: &TestScene) -> end_to_end::Run {
+    let name = scene.name.as_str();
+    occlusion(&["verify", name, "--cells", "--observers", "0", "--json"])
+}
+
+#[test]
+fn stored_cells_are_checked_and_planted_faults_are_found() {
+    let mut scene = town("cells_checked", 200);
+    scene.run(&call(&scene.name));
+    let report = check_cells(&scene).expect(0).json();
+    let cells = &report["view_cells"];
+    let count = number(&mut scene, "SELECT count(*) FROM {n}.view_cell");
+    assert_eq!(cells["checked"], count, "{report:#}");
+    assert!(cells["rays"].as_u64().unwrap() > 100_000, "{report:#}");
+    let share: f64 = scene
+        .client
+        .query_one("SELECT occlusion.proven_share($1)", &[&scene.name])
+        .unwrap()
+        .get(0);
+    let proven = cells["proven"].as_f64().unwrap() / cells["visible"].as_f64().unwrap();
+    assert!(
+        share > 0.7 && (share - proven).abs() < 1e-9,
+        "{share} {proven}"
+    );
+
+    // A proof that is made up.
+    let name = scene.name.clone();
+    scene.run(&format!("UPDATE {name}.view_cell SET unproven = '{{}}'"));
+    let report = check_cells(&scene).expect(1).json();
+    assert!(report["stored_faults"].as_i64().unwrap() > 0, "{report:#}");
+    assert_eq!(report["false_occlusions"], 0, "{report:#}");
+
+    // An erosion that is a tenth short: what was found for a box is said of one that is larger by a ninth.
+    scene.run(&format!(
+        "UPDATE {name}.view_cell AS c SET unproven = c.visible, box = occlusion.box3d(
+             occlusion.point3d(occlusion.x(low) - occlusion.x(size) / 18, occlusion.y(low) - occlusion.y(size) / 18,
+                               occlusion.z(low)),
+             occlusion.point3d(occlusion.x(high) + occlusion.x(size) / 18, occlusion.y(high) + occlusion.y(size) / 18,
+                               occlusion.z(high)))
+         FROM (SELECT id, occlusion.lower(box), occlusion.upper(box), occlusion.size(box) FROM {name}.view_cell)
+              AS old (id, low, high, size)
+         WHERE old.id = c.id"
+    ));
+    let report = check_cells(&scene).expect(1).json();
+    assert!(
+        report["false_occlusions"].as_i64().unwrap() > 0,
+        "{report:#}"
+    );
+    assert_eq!(report["stored_faults"], 0, "{report:#}");
+}

@@ -1,4 +1,4 @@
-//! What view cells take on disk, beside a plain table of cell and feature.
+//! What view cells and their squares take on disk, beside a plain table of cell and feature.
 
 use postgres::Client;
 
@@ -9,7 +9,7 @@ use crate::failure::Failure;
 /// Schema of all that the benchmark makes.
 pub const SCHEMA: &str = "occlusion_bench_cells";
 
-/// Measures the table of view cells with its indexes, and makes the plain one for as long as that takes.
+/// Measures the tables of view cells with their indexes, and makes the plain one for as long as that takes.
 pub fn compare(client: &mut Client, scene: &str) -> Result<Table, Failure> {
     let drop = format!("DROP SCHEMA IF EXISTS {SCHEMA} CASCADE");
     let (schema, plain) = (quoted(scene), format!("{SCHEMA}.visible"));
@@ -22,10 +22,9 @@ pub fn compare(client: &mut Client, scene: &str) -> Result<Table, Failure> {
          CREATE INDEX visible_cell ON {plain} (cell);
          CREATE INDEX visible_feature ON {plain} (feature)"
     ))?;
-    let [ours, theirs] = [
-        relations(client, &format!("{schema}.view_cell"))?,
-        relations(client, &plain)?,
-    ];
+    let mut ours = relations(client, &format!("{schema}.view_cell"))?;
+    ours.extend(relations(client, &format!("{schema}.view_cell_block"))?);
+    let theirs = relations(client, &plain)?;
     let count = format!("SELECT count(*) FROM {plain}");
     let pairs: i64 = client.query_one(&count, &[])?.get(0);
     client.batch_execute(&drop)?;

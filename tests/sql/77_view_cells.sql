@@ -88,10 +88,33 @@ FROM occlusion.visible_set('regress_cells', 'POINT(15 22 1.75)') AS h,
 SELECT bool_and(array_agg = ids) AS t FROM (
     SELECT c.id, occlusion.feature_ids('regress_cells', c.visible) AS ids,
            (SELECT array_agg(f.id ORDER BY f.id) FROM regress_cells.feature AS f
-            WHERE EXISTS (SELECT FROM occlusion.visible_from('regress_cells', f.id) AS v WHERE v.box = c.box ))
+            WHERE EXISTS (SELECT FROM occlusion.visible_from('regress_cells', f.id) AS v WHERE v.box = c.box))
     FROM regress_cells.view_cell AS c
 ) AS inverse;
-SELECT min(occlusion.y(occlusion.lower(box))) > 10 AS t, bool_or(proven) AS t FROM occlusion.visible_from('regress_cells', 110);
+SELECT min(occlusion.y(occlusion.lower(box))) > 10 AS t FROM occlusion.visible_from('regress_cells', 110);
+-- Proven is what has a surface that a line meets; of the sheds nothing but their envelopes is known.
+SELECT f.class, bool_or(v.proven) AS proven
+FROM regress_cells.feature AS f CROSS JOIN LATERAL occlusion.visible_from('regress_cells', f.id) AS v GROUP BY f.class ORDER BY f.class;
+SELECT bool_and(c.visible = occlusion.cardinality(s.visible) AND c.proven = c.visible - occlusion.cardinality(s.unproven)) AS t,
+       bool_and(s.unproven <@ s.visible) AS t, bool_and(c.share = c.proven::float8 / c.visible) AS t,
+       sum(c.proven) / sum(c.visible) = occlusion.proven_share('regress_cells') AS t
+FROM occlusion.view_cells('regress_cells') AS c JOIN regress_cells.view_cell AS s ON s.id = c.cell;
+SELECT bool_and(w.eye IS NOT NULL AND c.box @> w.eye AND s.visible) AS t, count(*) = sum(c.proven) / count(DISTINCT w.feature_id) AS t, count(*) > 0 AS t
+FROM (SELECT * FROM occlusion.view_cells('regress_cells') ORDER BY cell LIMIT 1) AS c
+CROSS JOIN LATERAL occlusion.witnesses('regress_cells', c.cell) AS w
+CROSS JOIN LATERAL occlusion.line_of_sight('regress_cells', w.eye,
+    occlusion.point3d(0.99 * occlusion.x(w.target) + 0.01 * occlusion.x(w.eye), 0.99 * occlusion.y(w.target) + 0.01 * occlusion.y(w.eye),
+                      0.99 * occlusion.z(w.target) + 0.01 * occlusion.z(w.eye))) AS s;
+SELECT occlusion.witnesses('regress_cells', -1);
+\echo :SQLSTATE
+SELECT occlusion.proven_share('regress_nowhere');
+\echo :SQLSTATE
+BEGIN;
+DELETE FROM regress_cells.inner_envelope;
+SELECT count(*) = 0 AS t FROM occlusion.view_cells('regress_cells');
+SELECT occlusion.proven_share('regress_cells') IS NULL AS t;
+SELECT count(*) > 0 AS t, count(w.eye) = 0 AS t FROM occlusion.witnesses('regress_cells', (SELECT min(id) FROM regress_cells.view_cell)) AS w;
+ROLLBACK;
 SELECT occlusion.visible_from('regress_cells', 999);
 \echo :SQLSTATE
 SELECT count(*) = 40 AS t, bool_and(share > 0 AND share <= 1) AS t, max(cells) <= (SELECT count(*) FROM regress_cells.view_cell) AS t

@@ -49,6 +49,7 @@ pub fn tiles(features: &[TileFeature]) -> Tiles {
 /// A city before it is divided.
 pub struct Whole {
     pub features: Vec<TileFeature>,
+    #[allow(dead_code, reason = "not every example looks at surfaces")]
     pub surfaces: Vec<Surface>,
     pub streets: Vec<Street>,
 }

@@ -78,8 +78,10 @@ fn read_where(
         .collect()
 }
 
-/// Rings, lowest and highest eye of some rows.
-fn columns(rows: SpiTupleTable) -> Result<Vec<(Vec<Option<String>>, f64, f64)>, pgrx::spi::Error> {
+/// A row of the table: rings, lowest and highest eye.
+type Columns = (Vec<Option<String>>, f64, f64);
+
+fn columns(rows: SpiTupleTable) -> Result<Vec<Columns>, pgrx::spi::Error> {
     rows.map(|row| {
         Ok((
             row.get::<Vec<Option<String>>>(1)?.unwrap_or_default(),

@@ -1,7 +1,10 @@
 //! [`ViewCell`], and how a part of the view region is covered with such.
 
+use std::collections::HashSet;
+
 use super::scene::CellScene;
 use super::solver::{CellQuery, CellSolver, around, parts, top};
+use crate::point_visibility::Spot;
 use crate::{Box3d, ViewRegion};
 
 /// A cell is divided if its set is larger by more than this than what is seen from points in a quarter
@@ -51,10 +54,20 @@ impl CellSolver {
                 range: options.range,
                 precision: options.precision,
             };
+            let may_divide = square.size().truncate().max_element() > options.smallest;
+            let (all, most) = match may_divide {
+                true => self.count(scene, region, &query),
+                false => (0, usize::MAX),
+            };
+            let grows = |count: usize| count as f64 > GROWTH * most as f64;
+            // What points show needs no set.
+            if grows(all) {
+                open.extend(parts(&square));
+                continue;
+            }
             let is_open = |bounds: &Box3d| region.touches(bounds);
             let visible = self.solve(scene, &query, &is_open, cancelled)?;
-            let may_divide = square.size().truncate().max_element() > options.smallest;
-            if may_divide && self.grows(scene, region, &query, visible.len()) {
+            if grows(visible.len()) {
                 open.extend(parts(&square));
             } else {
                 cells.push(ViewCell { bounds, visible });
@@ -63,20 +76,23 @@ impl CellSolver {
         Some(cells)
     }
 
-    /// Whether much more is seen from all of a cell than from any quarter.
-    fn grows(
+    /// How many features are seen from five points in each quarter of a cell together, and from those of
+    /// the quarter from which most are seen.
+    fn count(
         &mut self,
         scene: &CellScene,
         region: &ViewRegion,
         query: &CellQuery,
-        count: usize,
-    ) -> bool {
+    ) -> (usize, usize) {
         let is_eye = |&eye: &_| region.touches(&Box3d::new(eye, eye)) && !scene.holds(eye);
+        let mut all: HashSet<Spot> = HashSet::new();
         let counts = parts(&query.bounds).map(|part| {
             let eyes = around(&part).into_iter().chain([top(&part)]).filter(is_eye);
-            self.count_from(scene, eyes, query.range)
+            let seen = self.seen_from(scene, eyes, query.range);
+            all.extend(seen.iter().copied());
+            seen.len()
         });
         let most = counts.max().unwrap_or(0);
-        count as f64 > GROWTH * most as f64
+        (all.len(), most)
     }
 }

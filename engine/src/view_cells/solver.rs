@@ -98,18 +98,18 @@ impl CellSolver {
         Some(seen)
     }
 
-    /// How many features are seen from some points, all together.
-    pub(super) fn count_from(
+    /// The features that are seen from some points, all together.
+    pub(super) fn seen_from(
         &mut self,
         scene: &CellScene,
         eyes: impl Iterator<Item = DVec3>,
         range: f64,
-    ) -> usize {
+    ) -> &HashSet<Spot> {
         self.seen.clear();
         for eye in eyes {
             self.look_from(scene, eye, range);
         }
-        self.seen.len()
+        &self.seen
     }
 
     /// Notes what is seen from a point.

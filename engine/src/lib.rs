@@ -59,7 +59,9 @@ pub use solid::{Hides, Repair, Solid};
 pub use solid_column::SolidColumn;
 pub use statistics::BoxStatistics;
 pub use umbra::{OCCLUDER_MARGIN, Occluder, ShadowCaster};
-pub use view_cells::{CellQuery, CellScene, CellSolver, CellTile, CoverOptions, ViewCell, witness};
+pub use view_cells::{
+    CellQuery, CellScene, CellSolver, CellTile, CoverOptions, ViewCell, Way, witness,
+};
 pub use view_region::{
     LocalGround, Site, Street, ViewRegion, ViewRegionOptions, covers_ground, footprint,
     is_building, open_space, streets_from_surfaces, without_footprints,

@@ -1,3 +1,5 @@
 -- View cells, and the log of changes since.
 
 -- include sql/77_view_cells.sql
+
+-- include sql/78_visible_ahead.sql

@@ -10,8 +10,10 @@ mod erosion;
 mod proof;
 mod scene;
 mod solver;
+mod way;
 
 pub use cover::{CoverOptions, ViewCell};
 pub use proof::witness;
 pub use scene::{CellScene, CellTile};
 pub use solver::{CellQuery, CellSolver};
+pub use way::Way;

@@ -1,5 +1,6 @@
 //! Visibility queries.
 
+mod ahead;
 mod base;
 mod cache;
 mod directions;

@@ -53,6 +53,12 @@ pub enum Ask {
     AllInnerEnvelopes,
     /// Visible set, box, range, id and snapshot of the view cell of an eye, in a cluster.
     ViewCell,
+    /// Box, range and visible set of the view cells that meet a box and are right, in a cluster.
+    CellsNear,
+    /// Feature, footprint, bottom and top of the columns that meet a box, and whether they are grounded.
+    ColumnsNear,
+    /// Feature and box of the inner envelopes that meet a box.
+    InnerEnvelopesNear,
     /// Box and range of the view cell with an id.
     CellQuery,
     /// Ids of the features that are proven to be visible from it.
@@ -73,6 +79,11 @@ impl Ask {
             "SELECT id::pg_catalog.int8, class::pg_catalog.text, envelope::occlusion.box3d, \
                     outline::pg_catalog.polygon FROM {scene}.feature"
         );
+        let columns = format!(
+            "SELECT feature::pg_catalog.int8, footprint::pg_catalog.polygon[], \
+                    bottom::pg_catalog.float8, top::pg_catalog.float8, grounded::pg_catalog.bool \
+             FROM {scene}.solid_column"
+        );
         match self {
             Self::Tiles => format!(
                 "SELECT id::pg_catalog.int8, bounds::occlusion.box3d, version::pg_catalog.uuid \
@@ -92,12 +103,7 @@ impl Ask {
             Self::FeaturesNear => format!("{features} WHERE envelope OPERATOR(occlusion.&&) $1"),
             Self::FeaturesOf => format!("{features} WHERE id OPERATOR(pg_catalog.=) ANY ($1)"),
             Self::InnerEnvelopes => format!("{} AND grounded", Self::AllInnerEnvelopes.text(name)),
-            Self::Columns => format!(
-                "SELECT feature::pg_catalog.int8, footprint::pg_catalog.polygon[], \
-                        bottom::pg_catalog.float8, top::pg_catalog.float8, \
-                        grounded::pg_catalog.bool \
-                 FROM {scene}.solid_column WHERE feature OPERATOR(pg_catalog.=) ANY ($1)"
-            ),
+            Self::Columns => format!("{columns} WHERE feature OPERATOR(pg_catalog.=) ANY ($1)"),
             Self::AllInnerEnvelopes => format!(
                 "SELECT feature::pg_catalog.int8, box::occlusion.box3d FROM {scene}.inner_envelope \
                  WHERE feature OPERATOR(pg_catalog.=) ANY ($1)"
@@ -116,6 +122,17 @@ impl Ask {
             Self::Slots => format!(
                 "SELECT id::pg_catalog.int8, slot::pg_catalog.int4 FROM {scene}.feature \
                  WHERE id OPERATOR(pg_catalog.=) ANY ($1)"
+            ),
+            Self::CellsNear => format!(
+                "SELECT c.box::occlusion.box3d, c.range::pg_catalog.float8, c.visible::occlusion.feature_set \
+                 FROM {scene}.view_cell AS c \
+                 WHERE c.box OPERATOR(occlusion.&&) $1 AND c.cluster OPERATOR(pg_catalog.=) $2 AND {}",
+                written("valid_cell_condition", name)
+            ),
+            Self::ColumnsNear => format!("{columns} WHERE envelope OPERATOR(occlusion.&&) $1"),
+            Self::InnerEnvelopesNear => format!(
+                "SELECT feature::pg_catalog.int8, box::occlusion.box3d FROM {scene}.inner_envelope \
+                 WHERE box OPERATOR(occlusion.&&) $1"
             ),
             Self::CellQuery => format!(
                 "SELECT box::occlusion.box3d, range::pg_catalog.float8 FROM {scene}.view_cell \
@@ -148,7 +165,12 @@ impl Ask {
             | Self::AllInnerEnvelopes => vec![pg_sys::INT8ARRAYOID],
             Self::Slotted => vec![pg_sys::INT4ARRAYOID],
             Self::EnvelopesNear => vec![Box3d::type_oid(), pg_sys::INT8ARRAYOID],
-            Self::Tiles | Self::Edits | Self::FeaturesNear => vec![Box3d::type_oid()],
+            Self::Tiles
+            | Self::Edits
+            | Self::FeaturesNear
+            | Self::ColumnsNear
+            | Self::InnerEnvelopesNear => vec![Box3d::type_oid()],
+            Self::CellsNear => vec![Box3d::type_oid(), pg_sys::INT8OID],
             Self::Hidden => vec![crate::types::Point3d::type_oid()],
             Self::ViewCell => vec![crate::types::Point3d::type_oid(), pg_sys::INT8OID],
         }

@@ -50,8 +50,8 @@ pub use mesh::{
 };
 pub use outer_prism::OuterPrism;
 pub use point_visibility::{
-    AzimuthRange, Extents, Hider, MalformedTile, PointQuery, PointSolver, PointTarget, Sighting,
-    TargetShape, Tile, TileFeature, TileSource, neighbourhoods, visible_from_point,
+    AzimuthRange, EYE_MARGIN, Extents, Hider, MalformedTile, PointQuery, PointSolver, PointTarget,
+    Sighting, TargetShape, Tile, TileFeature, TileSource, neighbourhoods, visible_from_point,
 };
 pub use roof::Roof;
 pub use shadow_region::ShadowRegion;

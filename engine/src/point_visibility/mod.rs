@@ -30,7 +30,7 @@ pub(crate) use tree::Tree;
 
 /// How far from a solid an eye counts as within it, metres: that solid hides nothing then, and a
 /// wall so near has no usable direction.
-const EYE_MARGIN: f64 = 1e-3;
+pub const EYE_MARGIN: f64 = 1e-3;
 
 /// Relative slack between the slope of an occluder and that of its target: some ten million
 /// roundings of an `f64`, because a wall seen at [`EDGE_ON`] multiplies them by a million; on a

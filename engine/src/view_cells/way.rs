@@ -3,14 +3,12 @@
 use geo::{Coord, CoordsIter, Distance, Euclidean, Intersects, Line, LinesIter, Polygon};
 use glam::DVec3;
 
+use crate::point_visibility::EYE_MARGIN;
 use crate::{Box3d, SolidColumn, Street};
 
 /// Gaps of this length between what covers a way do not count, metres: they are roundings of where it
 /// crosses borders. Cells hold what is seen from eyes that are farther beside their parts than this.
 const GAP: f64 = 1e-6;
-
-/// An eye so near to a solid counts as in it, metres, and no cell speaks of it.
-const SOLID_MARGIN: f64 = 1e-3;
 
 /// A straight way of an eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,19 +44,20 @@ impl Way {
         Box3d::new(self.from, self.to)
     }
 
-    /// Whether all of it is in some boxes together.
+    /// Whether all of it is in some boxes together, each of which is as low and as high.
     #[must_use]
     pub fn is_in_boxes<'a>(&self, boxes: impl IntoIterator<Item = &'a Box3d>) -> bool {
-        let shares = boxes.into_iter().filter_map(|bounds| self.within(bounds));
-        self.is_covered(shares.collect())
+        let boxes = boxes.into_iter();
+        let level = boxes.filter(|bounds| self.is_between(bounds.min.z, bounds.max.z));
+        self.is_covered(level.filter_map(|bounds| self.within(bounds)).collect())
     }
 
-    /// Whether all of it is in some streets together.
+    /// Whether all of it is in some streets together, each of which has eyes as low and as high.
     #[must_use]
     pub fn is_in_streets<'a>(&self, streets: impl IntoIterator<Item = &'a Street>) -> bool {
-        let shares = streets
-            .into_iter()
-            .flat_map(|street| self.in_street(street));
+        let streets = streets.into_iter();
+        let level = streets.filter(|street| self.is_between(street.eye_low, street.eye_high));
+        let shares = level.flat_map(|street| self.within_area(&street.area));
         self.is_covered(shares.collect())
     }
 
@@ -70,22 +69,26 @@ impl Way {
             true => Euclidean.distance(&line, &column.footprint),
             false => Euclidean.distance(&geo::Point(line.start), &column.footprint),
         };
-        distance > SOLID_MARGIN
+        distance > EYE_MARGIN
     }
 
     fn plan(&self) -> Line<f64> {
-        let [start, end] = [self.from, self.to].map(|place| Coord {
-            x: place.x,
-            y: place.y,
-        });
+        let [start, end] = [self.from, self.to].map(coord);
         Line { start, end }
     }
 
-    /// The shares of the way that are in a closed box.
+    /// Whether all of it is between two heights. No gap counts there: a micrometre higher one sees over
+    /// more.
+    fn is_between(&self, low: f64, high: f64) -> bool {
+        let (from, to) = (self.from.z, self.to.z);
+        low <= from.min(to) && from.max(to) <= high
+    }
+
+    /// The shares of the way that are in the plan of a closed box.
     fn within(&self, bounds: &Box3d) -> Option<[f64; 2]> {
         let way = self.to - self.from;
         let mut share = [0.0_f64, 1.0];
-        for axis in 0..3 {
+        for axis in 0..2 {
             let (from, min, max) = (self.from[axis], bounds.min[axis], bounds.max[axis]);
             if way[axis] == 0.0 {
                 if !(min..=max).contains(&from) {
@@ -100,33 +103,17 @@ impl Way {
         (share[0] <= share[1]).then_some(share)
     }
 
-    /// The shares of the way that are in a street.
-    fn in_street(&self, street: &Street) -> Vec<[f64; 2]> {
-        let band = Box3d {
-            min: DVec3::new(f64::MIN, f64::MIN, street.eye_low),
-            max: DVec3::new(f64::MAX, f64::MAX, street.eye_high),
-        };
-        let Some([first, last]) = self.within(&band) else {
-            return Vec::new();
-        };
-        let mut cuts = self.crossings(&street.area);
-        cuts.retain(|share| (first..last).contains(share));
-        cuts.extend([first, last]);
+    /// The shares of the way that are in an area of the plan.
+    fn within_area(&self, area: &Polygon<f64>) -> Vec<[f64; 2]> {
+        let mut cuts = self.crossings(area);
+        cuts.retain(|share| (0.0..1.0).contains(share));
+        cuts.extend([0.0, 1.0]);
         cuts.sort_by(f64::total_cmp);
-        let line = self.plan();
-        let is_inside = |pair: &[f64]| {
+        let is_inside = |pair: &&[f64]| {
             let middle = self.from.lerp(self.to, pair[0].midpoint(pair[1]));
-            let middle = Coord {
-                x: middle.x,
-                y: middle.y,
-            };
-            street.area.intersects(&middle)
+            area.intersects(&coord(middle))
         };
-        if line.start == line.end {
-            let inside = street.area.intersects(&line.start);
-            return inside.then_some([first, last]).into_iter().collect();
-        }
-        let parts = cuts.windows(2).filter(|pair| is_inside(pair));
+        let parts = cuts.windows(2).filter(is_inside);
         parts.map(|pair| [pair[0], pair[1]]).collect()
     }
 
@@ -166,6 +153,13 @@ impl Way {
     }
 }
 
+fn coord(place: DVec3) -> Coord<f64> {
+    Coord {
+        x: place.x,
+        y: place.y,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -191,6 +185,10 @@ mod tests {
         assert!(!across.is_in_boxes(&[]));
         let climbing = way([0.5, 0.5, 1.7], [3.0, 3.0, 2.1]);
         assert!(!climbing.is_in_boxes(&[square(0.0, 0.0, 4.0)]));
+        let low = Box3d::new(DVec3::new(0.0, 0.0, 0.0), DVec3::new(4.0, 4.0, 1.9));
+        let rising = way([0.5, 0.5, 1.7], [3.0, 3.0, 1.95]);
+        assert!(rising.is_in_boxes(&[square(0.0, 0.0, 4.0)]));
+        assert!(!rising.is_in_boxes(&[low]), "not a nanometre over the top");
         let standing = way([4.0, 4.0, 2.0], [4.0, 4.0, 2.0]);
         assert!(standing.is_in_boxes(&[square(0.0, 0.0, 4.0)]));
         assert!(!standing.is_in_boxes(&[square(4.5, 0.0, 4.0)]));

@@ -14,6 +14,7 @@ mod view_region;
 mod workers;
 
 pub use ground::settle;
+pub use streets::near as near_streets;
 pub use workers::Workers;
 
 use crate::error::Refusal;
@@ -42,11 +43,6 @@ pub fn run(statement: &str, arguments: &[DatumWithOid]) {
     if let Err(error) = Spi::run_with_args(statement, arguments) {
         failed(&error);
     }
-}
-
-/// The streets of a scene that meet a box in plan, as the query sees them.
-pub fn near_streets(scene: &str, area: &engine::Box3d) -> Vec<engine::Street> {
-    streets::near(scene, crate::snapshot_read::Moment::Query, area)
 }
 
 /// The one value of a query that only reads: others take a transaction number, which a standby has none of.

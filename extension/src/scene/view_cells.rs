@@ -32,9 +32,6 @@ const BLOCK: f64 = 32.0;
 /// Blocks of a scene at the most; a larger one takes larger cells.
 const MOST_BLOCKS: usize = 10_000_000;
 
-/// Metres by which more than the range is read.
-const RANGE_MARGIN: f64 = 1e-3;
-
 /// Computes what can be seen from everywhere in the streets of a scene.
 #[pg_extern]
 fn generate_view_cells(
@@ -316,13 +313,9 @@ impl Blocks {
             &[],
         );
         let region = ViewRegion::new(streets::near(scene, Moment::Now, &block.area));
-        let reach = block.asked.range + RANGE_MARGIN;
-        let near = region.filled(&block.area).map(|eyes| engine::Box3d {
-            min: eyes.min - reach,
-            max: eyes.max + reach,
-        });
-        let cells = near.map_or(Vec::new(), |near| {
-            let around = surroundings.around(&near);
+        let eyes = region.filled(&block.area);
+        let cells = eyes.map_or(Vec::new(), |eyes| {
+            let around = surroundings.around(&eyes, block.asked.range);
             workers.run(|cancelled| cover(&around, &region, block, cancelled))
         });
         let ids: HashSet<i64> = cells

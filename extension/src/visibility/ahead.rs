@@ -1,7 +1,7 @@
 //! `visible_ahead`, what may be seen on a way.
 
-use super::base::{BaseFeature, column_of, of as features_of, upright};
-use super::live::checked_range;
+use super::base::{column_of, upright};
+use super::live::{RANGE_MARGIN, checked_range, within_reach};
 use super::statements::{Ask, Statements};
 use super::tables::Tables;
 use super::view_cell::cluster_identity;
@@ -9,8 +9,7 @@ use crate::error::Refusal;
 use crate::scene::near_streets;
 use crate::snapshot_read::{Moment, argument};
 use crate::types::{Box3d, Point3d, StoredSet, shortest};
-use engine::{FeatureSet, SolidColumn, ViewRegion, Way};
-use glam::DVec3;
+use engine::{EYE_MARGIN, FeatureSet, SolidColumn, ViewRegion, Way};
 use pgrx::iter::TableIterator;
 use pgrx::pg_sys::Datum;
 use pgrx::{IntoDatum, PgSqlErrorCode, name, pg_extern};
@@ -24,9 +23,6 @@ const MOST_PARTS: usize = 1000;
 
 /// Most neighbouring parts that are asked for together.
 const MOST_TOGETHER: usize = 64;
-
-/// Metres by which more is read than the range and the way hold.
-const MARGIN: f64 = 2e-3;
 
 /// Features that may be seen from somewhere on the way of an observer.
 #[pg_extern(stable, strict, parallel_safe)]
@@ -51,7 +47,7 @@ fn visible_ahead(
         from: observer.0,
         to: observer.0 + velocity.0 * checked_seconds(seconds),
     };
-    if !way.to.is_finite() {
+    if !way.length().is_finite() {
         Refusal::new(
             PgSqlErrorCode::ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE,
             "the way ends beyond all numbers",
@@ -60,49 +56,54 @@ fn visible_ahead(
     }
     let tables = Tables::of(scene);
     let statements = Statements::of(scene, &tables);
-    let parts: Vec<Way> = {
-        let count = (way.length() / PART).ceil().clamp(1.0, MOST_PARTS as f64);
-        way.parts(count as usize).collect()
-    };
+    let count = (way.length() / PART).ceil().clamp(1.0, MOST_PARTS as f64);
+    let parts: Vec<Way> = way.parts(count as usize).collect();
     let known = match tables.has_cells() && tables.may_read_cells() {
         true => Known::around(&way, range, scene, &statements),
         false => Known::default(),
     };
-    let mut ids = HashSet::new();
+    let mut rows = Vec::new();
+    let features = statements.get(Ask::FeaturesOf);
+    let ids = argument(candidates(&parts, &known, range, &statements));
+    features.read(Moment::Query, &ids, |row| {
+        let (Some(id), Some(class), Some(envelope)) = (row.get(1), row.get(2), row.get::<Box3d>(3))
+        else {
+            return;
+        };
+        let distances = parts.iter().map(|part| envelope.0.distance(&part.bounds()));
+        let distance = distances.fold(f64::INFINITY, f64::min);
+        if distance <= range + RANGE_MARGIN {
+            rows.push((id, class, envelope, distance));
+        }
+    });
+    TableIterator::new(rows)
+}
+
+/// The features that may be seen from some parts of a way, and perhaps some out of range.
+fn candidates(parts: &[Way], known: &Known, range: f64, statements: &Statements) -> Vec<i64> {
     let mut slots = HashSet::new();
     let is_open = |part: &Way| !known.add(part, &mut slots);
     let mut open: Vec<bool> = parts.iter().map(is_open).collect();
-    match with_slots(&statements, &slots) {
+    let mut ids = HashSet::new();
+    match with_slots(statements, &slots) {
         Some(features) => ids.extend(features),
         None => open.fill(true),
     }
-    let numbered: Vec<(usize, &Way)> = parts.iter().enumerate().collect();
     // Neighbours of which nothing is known are asked for together.
     let together =
         |a: usize, b: usize| open[a] && open[b] && a / MOST_TOGETHER == b / MOST_TOGETHER;
-    for run in numbered.chunk_by(|(a, _), (b, _)| together(*a, *b)) {
+    let numbers: Vec<usize> = (0..parts.len()).collect();
+    for run in numbers.chunk_by(|a, b| together(*a, *b)) {
         let (first, last) = (run[0], run[run.len() - 1]);
-        if open[first.0] {
+        if open[first] {
             let run = Way {
-                from: first.1.from,
-                to: last.1.to,
+                from: parts[first].from,
+                to: parts[last].to,
             };
-            ids.extend(near(&statements, &run, range));
+            ids.extend(near(statements, &run, range));
         }
     }
-    let ids: Vec<i64> = ids.into_iter().collect();
-    let features = features_of(&statements, Moment::Query, &ids);
-    let rows = features
-        .into_iter()
-        .filter_map(|BaseFeature { feature, class }| {
-            let distances = parts
-                .iter()
-                .map(|part| feature.envelope.distance(&part.bounds()));
-            let distance = distances.fold(f64::INFINITY, f64::min);
-            let is_in_range = distance <= range + MARGIN;
-            is_in_range.then_some((feature.id, class, Box3d(feature.envelope), distance))
-        });
-    TableIterator::new(rows.collect::<Vec<_>>())
+    ids.into_iter().collect()
 }
 
 fn checked_seconds(seconds: f64) -> f64 {
@@ -127,7 +128,7 @@ struct Known {
 
 impl Known {
     fn around(way: &Way, range: f64, scene: &str, statements: &Statements) -> Self {
-        let bounds = expanded(&way.bounds(), MARGIN);
+        let bounds = within_reach(&way.bounds(), EYE_MARGIN);
         let place = Box3d(bounds).into_datum();
         let arguments: Vec<Datum> = place
             .into_iter()
@@ -159,7 +160,7 @@ impl Known {
             });
         Self {
             cells,
-            region: Some(ViewRegion::new(near_streets(scene, &bounds))),
+            region: Some(ViewRegion::new(near_streets(scene, Moment::Query, &bounds))),
             solids,
         }
     }
@@ -169,7 +170,7 @@ impl Known {
         let Some(region) = &self.region else {
             return false;
         };
-        let bounds = expanded(&part.bounds(), MARGIN);
+        let bounds = within_reach(&part.bounds(), EYE_MARGIN);
         let here = || self.cells.iter().filter(|(cell, _)| cell.overlaps(&bounds));
         let is_known = part.is_in_boxes(here().map(|(cell, _)| cell))
             && part.is_in_streets(region.within(&bounds))
@@ -198,16 +199,8 @@ fn with_slots(statements: &Statements, slots: &HashSet<i32>) -> Option<Vec<i64>>
 /// All features within range of a way.
 fn near(statements: &Statements, way: &Way, range: f64) -> Vec<i64> {
     let mut ids = Vec::new();
-    let bounds = argument(Box3d(expanded(&way.bounds(), range + MARGIN)));
+    let bounds = argument(Box3d(within_reach(&way.bounds(), range)));
     let features = statements.get(Ask::FeaturesNear);
     features.read(Moment::Query, &bounds, |row| ids.extend(row.get::<i64>(1)));
     ids
-}
-
-fn expanded(bounds: &engine::Box3d, margin: f64) -> engine::Box3d {
-    let most = DVec3::splat(f64::MAX);
-    engine::Box3d {
-        min: (bounds.min - margin).max(-most),
-        max: (bounds.max + margin).min(most),
-    }
 }

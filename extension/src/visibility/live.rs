@@ -18,7 +18,7 @@ use std::rc::Rc;
 
 /// Metres by which the box that preselects all round is larger than the range, so that its rounding
 /// loses nothing in range.
-const RANGE_MARGIN: f64 = 1e-3;
+pub const RANGE_MARGIN: f64 = 1e-3;
 
 thread_local! {
     /// Its memory is kept from one query to the next.
@@ -81,12 +81,7 @@ impl View {
 
     /// A box that holds all of it.
     pub fn bounds(&self) -> engine::Box3d {
-        let reach = DVec3::splat(self.range + RANGE_MARGIN);
-        let most = DVec3::splat(f64::MAX);
-        engine::Box3d {
-            min: (self.eye - reach).max(-most),
-            max: (self.eye + reach).min(most),
-        }
+        within_reach(&engine::Box3d::new(self.eye, self.eye), self.range)
     }
 
     /// The features of a scene that may be seen in it, and how they were found.
@@ -167,6 +162,16 @@ impl Account {
         (self.tiles, self.read) = tiles.counts();
         self.cached = tiles.cached;
         self.edited = tiles.edited();
+    }
+}
+
+/// A box that holds all that is within range of another.
+pub fn within_reach(bounds: &engine::Box3d, range: f64) -> engine::Box3d {
+    let reach = DVec3::splat(range + RANGE_MARGIN);
+    let most = DVec3::splat(f64::MAX);
+    engine::Box3d {
+        min: (bounds.min - reach).max(-most),
+        max: (bounds.max + reach).min(most),
     }
 }
 

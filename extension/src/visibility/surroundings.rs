@@ -2,6 +2,7 @@
 
 use super::base;
 use super::cache::Version;
+use super::live::within_reach;
 use super::pack::MOST_FEATURES;
 use super::packed_tile::PackedTile;
 use super::statements::{Ask, Statements};
@@ -66,9 +67,10 @@ impl Surroundings {
         .raise()
     }
 
-    /// All features that meet a box.
-    pub fn around(&mut self, bounds: &engine::Box3d) -> Around {
-        let (tiles, surfaces) = self.tiles(bounds).into_iter().unzip();
+    /// All features within range of a box, and those that meet the box around these.
+    pub fn around(&mut self, bounds: &engine::Box3d, range: f64) -> Around {
+        let bounds = within_reach(bounds, range);
+        let (tiles, surfaces) = self.tiles(&bounds).into_iter().unzip();
         Around {
             scene: CellScene::new(tiles),
             surfaces: engine::Surfaces::new(surfaces),

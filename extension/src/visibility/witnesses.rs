@@ -12,9 +12,6 @@ use engine::{CellQuery, ViewRegion, witness};
 use pgrx::iter::TableIterator;
 use pgrx::{PgSqlErrorCode, name, pg_extern};
 
-/// Metres by which more than the range is read.
-const RANGE_MARGIN: f64 = 1e-3;
-
 /// For each feature that is proven to be visible from a cell an eye in the cell, and the end of a line from
 /// there that crosses the surface of the feature and meets no other; null where none is found any more.
 #[pg_extern(volatile, strict)]
@@ -41,15 +38,11 @@ fn witnesses(
     asked.read(Moment::Now, &argument(cell), |row| {
         proven.extend(row.get::<i64>(1))
     });
-    let reach = query.range + RANGE_MARGIN;
     let Around {
         scene: around,
         surfaces,
-    } = Surroundings::new(scene, settings::generate_bytes()).around(&engine::Box3d {
-        min: query.bounds.min - reach,
-        max: query.bounds.max + reach,
-    });
-    let region = ViewRegion::new(near_streets(scene, &query.bounds));
+    } = Surroundings::new(scene, settings::generate_bytes()).around(&query.bounds, query.range);
+    let region = ViewRegion::new(near_streets(scene, Moment::Query, &query.bounds));
     let is_eye = |eye| region.touches(&engine::Box3d::new(eye, eye)) && !around.holds(eye);
     let rows = proven.into_iter().map(|feature| {
         let found = witness(&surfaces, &query, feature, &is_eye);

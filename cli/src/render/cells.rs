@@ -9,7 +9,7 @@ use super::Render;
 use crate::database::quoted;
 use crate::failure::Failure;
 use crate::field_of_view::FieldOfView;
-use crate::scene::{Feature, Scene};
+use crate::scene::{Feature, Scene, no_view_cells};
 use crate::sql_types::Box3d;
 
 impl Render {
@@ -65,10 +65,7 @@ impl Render {
                 Ok(format!("{least} to {most} m far"))
             }
             (Some(range), _) => Ok(format!("{range} m far")),
-            (None, _) => Err(Failure::Unready(format!(
-                "scene \"{0}\" has no view cells\n  hint: occlusion generate {0} --cells computes them",
-                self.scene
-            ))),
+            (None, _) => Err(no_view_cells(&self.scene)),
         }
     }
 

@@ -131,16 +131,11 @@ fn faces(bounds: &Box3d) -> Vec<Triangle> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn feature() -> Feature {
-        let bounds = Box3d {
-            min: [0.0; 3],
-            max: [2.0, 3.0, 4.0],
-        };
-        Feature {
-            id: 7,
+impl Feature {
+    /// A building of which nothing but the box that it fills is known.
+    pub fn of_box(id: i64, bounds: Box3d) -> Self {
+        Self {
+            id,
             name: None,
             class: "Building".to_owned(),
             envelope: bounds,
@@ -151,6 +146,19 @@ mod tests {
             }),
             columns: Vec::new(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn feature() -> Feature {
+        let bounds = Box3d {
+            min: [0.0; 3],
+            max: [2.0, 3.0, 4.0],
+        };
+        Feature::of_box(7, bounds)
     }
 
     #[test]

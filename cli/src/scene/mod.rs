@@ -8,10 +8,8 @@ mod view_cell;
 mod volume;
 
 pub use feature::Feature;
-#[cfg(test)]
-pub use feature::InnerEnvelope;
 pub use load::{Scene, load, load_over, streets_over};
 pub use street::{Street, rings};
 pub use surfaces::{Surfaces, number};
-pub use view_cell::{ViewCell, Witness, view_cells, witnesses};
+pub use view_cell::{ViewCell, Witness, no_view_cells, view_cells, witnesses};
 pub use volume::{Volume, count_volumes, stream_volumes};

@@ -51,6 +51,13 @@ pub fn view_cells(client: &mut impl GenericClient, scene: &str) -> Result<Vec<Vi
     Ok(rows.map(cell).collect()?)
 }
 
+/// The failure of what needs view cells where there are none.
+pub fn no_view_cells(scene: &str) -> Failure {
+    Failure::Unready(format!(
+        "scene \"{scene}\" has no view cells\n  hint: occlusion generate {scene} --cells computes them"
+    ))
+}
+
 /// The witnesses of a view cell.
 pub fn witnesses(
     client: &mut impl GenericClient,

@@ -193,23 +193,11 @@ impl<'a> CellChecker<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{InnerEnvelope, Street, Surfaces};
+    use crate::scene::{Street, Surfaces};
     use crate::sql_types::{Box3d, Ring};
 
     fn feature(id: i64, min: [f64; 3], max: [f64; 3]) -> Feature {
-        let bounds = Box3d { min, max };
-        Feature {
-            id,
-            name: None,
-            class: "Building".to_owned(),
-            envelope: bounds,
-            mesh: None,
-            inner: Some(InnerEnvelope {
-                bounds,
-                grounded: true,
-            }),
-            columns: Vec::new(),
-        }
+        Feature::of_box(id, Box3d { min, max })
     }
 
     /// A street in the south, a wall, and a shed behind it.

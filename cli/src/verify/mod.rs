@@ -164,6 +164,9 @@ impl Verify {
         faults: &mut Vec<Fault>,
     ) -> Result<CellTally, Failure> {
         let cells = scene::view_cells(client, &self.scene)?;
+        if cells.is_empty() {
+            return Err(scene::no_view_cells(&self.scene));
+        }
         let mut checker = CellChecker::new(scene, truth, self.seed)?;
         let bar = terminal::bar(cells.len(), "view cells");
         for cell in &cells {

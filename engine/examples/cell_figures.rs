@@ -116,7 +116,7 @@ fn main() {
             proven += witnesses.iter().flatten().count();
             let set: HashSet<_> = visible
                 .into_iter()
-                .map(|spot| scene.feature(spot).0)
+                .map(|seen| scene.feature(seen.feature).0)
                 .collect();
             let is_eye = |eye: DVec3| region.touches(&Box3d::new(eye, eye)) && !scene.holds(eye);
             let points = from_points(bounds, range, &is_eye, &mut tiles);

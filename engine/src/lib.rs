@@ -60,7 +60,7 @@ pub use solid_column::SolidColumn;
 pub use statistics::BoxStatistics;
 pub use umbra::{OCCLUDER_MARGIN, Occluder, ShadowCaster};
 pub use view_cells::{
-    CellQuery, CellScene, CellSolver, CellTile, CoverOptions, ViewCell, Way, witness,
+    CellQuery, CellScene, CellSighting, CellSolver, CellTile, CoverOptions, ViewCell, Way, witness,
 };
 pub use view_region::{
     LocalGround, Site, Street, ViewRegion, ViewRegionOptions, covers_ground, footprint,

@@ -15,7 +15,7 @@ const FIT: f64 = 0.01;
 
 /// Edges of one roof, at the most. It bounds what a query takes to tell that one feature is hidden;
 /// of those with more, the outer prism is all that is known.
-const MOST_EDGES: usize = 256;
+const MOST_EDGES: usize = 1024;
 
 /// The edges of a mesh that are seen highest: from any eye outside its envelope in plan, in any
 /// direction, some point of them has the greatest slope of all points of the mesh there.

@@ -155,8 +155,8 @@ proptest! {
             .prove(&scene, &surfaces, &query, &visible, &|_| true, &|| false)
             .expect("not cancelled");
         let caster = city.caster();
-        for (place, proof) in visible.iter().zip(&proven) {
-            let id = scene.feature(*place).0;
+        for (sighting, proof) in visible.iter().zip(&proven) {
+            let id = scene.feature(sighting.feature).0;
             let again = witness(&surfaces, &query, id, &|eye| !scene.holds(eye));
             if let Some(proof) = proof {
                 prop_assert!(query.bounds.contains_point(proof.eye));

@@ -165,12 +165,19 @@ impl Walker for Search {
         }
         let first = self.walls.len();
         let (finder, horizon) = (&mut solver.finder, &solver.horizon);
-        finder.walls(tile, feature, query.eye, Measure::Slope, &mut |wall| {
-            let may_hide = self.is_shallow || !wall.is_raised;
-            if may_hide && wall.depth < self.limit && !horizon.covers(&wall.slopes) {
-                self.walls.push(wall);
-            }
-        });
+        finder.walls(
+            tile,
+            feature,
+            query.eye,
+            Measure::Slope,
+            &|_, _| true,
+            &mut |wall| {
+                let may_hide = self.is_shallow || !wall.is_raised;
+                if may_hide && wall.depth < self.limit && !horizon.covers(&wall.slopes) {
+                    self.walls.push(wall);
+                }
+            },
+        );
         if first < self.walls.len() {
             self.candidates.push(Candidate {
                 hider: Hider {

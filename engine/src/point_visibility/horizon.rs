@@ -1,15 +1,20 @@
 //! [`Horizon`], the upper envelope of all that hides, by place around the eye.
 
+use std::ops::Range;
+
 use glam::DVec2;
 
 use super::PLACE_MARGIN;
-use super::projection::{SIDES, Side, Span};
+use super::projection::{Edge, SIDES, Side, Span};
 
 /// A slope above all others.
 pub const SUMMIT: f64 = 1e300;
 
 /// Slices of equal width on a side. A slice holds few pieces, and knows the lowest of them.
 const SLICES: usize = 64;
+
+/// Slices all around.
+pub const COUNT: usize = SIDES * SLICES;
 
 /// Slices per unit of place.
 const DENSITY: f64 = SLICES as f64 / 2.0;
@@ -192,7 +197,7 @@ pub struct Horizon {
 impl Horizon {
     pub fn new() -> Self {
         Self {
-            slices: vec![Slice::EMPTY; SIDES * SLICES],
+            slices: vec![Slice::EMPTY; COUNT],
             scratch: Vec::new(),
         }
     }
@@ -248,6 +253,44 @@ impl Horizon {
         }
     }
 
+    /// Hides all in a slice.
+    pub fn shut_slice(&mut self, at: usize) {
+        let (from, to) = bounds(at % SLICES);
+        let slice = &mut self.slices[at];
+        slice.pieces.clear();
+        slice.pieces.push(Span {
+            side: Side(at / SLICES),
+            from,
+            to,
+            at_zero: SUMMIT,
+            rise: 0.0,
+        });
+        slice.floor = SUMMIT;
+    }
+
+    /// Whether what is below an edge, which is not seen edge on and no higher above the eye than this, is
+    /// below the lowest of each slice. Other edges may be below the horizon as well.
+    pub fn is_above(&self, edge: &Edge, height: f64) -> bool {
+        let (first, last) = edge.anticlockwise();
+        let (begin, end) = (Side::leaving(first), Side::reaching(last));
+        let highest = if begin == end {
+            let depths = [begin.frame(first).0, begin.frame(last).0];
+            let depth = if height > 0.0 {
+                depths[0].min(depths[1])
+            } else {
+                depths[0].max(depths[1])
+            };
+            height / depth
+        } else {
+            // Of a side in between, the nearest point is not known.
+            SUMMIT
+        };
+        let first = begin.0 * SLICES + slice_after(begin.place(first));
+        let last = end.0 * SLICES + slice_before(end.place(last));
+        let count = (last + COUNT - first) % COUNT;
+        (first..=first + count).all(|at| highest <= self.slices[at % COUNT].floor)
+    }
+
     /// Adds what hides all below it.
     pub fn raise(&mut self, piece: &Span) {
         for (at, part) in parts(piece) {
@@ -289,6 +332,17 @@ impl Horizon {
         let (from, to) = widened(line);
         // Of what is not a number, nothing is known.
         from < to && parts(&line.part(from, to)).all(|(at, part)| self.slices[at].hides(&part))
+    }
+}
+
+/// The slices that a line passes, a little widened.
+pub fn slices(line: &Span) -> Range<usize> {
+    let (from, to) = widened(line);
+    let first = line.side.0 * SLICES;
+    match from < to {
+        true => first + slice_after(from)..first + slice_before(to) + 1,
+        // Of what is not a number, nothing is known.
+        false => 0..COUNT,
     }
 }
 

@@ -105,7 +105,14 @@ impl Walker for Fronts {
         let (finder, horizon) = (&mut solver.finder, &mut solver.horizon);
         let feature = &tile.features[position];
         let found = &mut |wall: Wall| horizon.raise(&wall.slopes);
-        finder.walls(tile, feature, query.eye, Measure::InverseDepth, found);
+        finder.walls(
+            tile,
+            feature,
+            query.eye,
+            Measure::InverseDepth,
+            &|_, _| true,
+            found,
+        );
     }
 }
 

@@ -43,19 +43,24 @@ pub struct WallFinder {
 }
 
 impl WallFinder {
-    /// Gives `found` the walls of a feature that can hide something from the eye.
+    /// Gives `found` the walls of a feature that can hide something from the eye. Edges that `adds`, given
+    /// how high above the eye they are at the most, says of that they add nothing are passed over.
     pub fn walls(
         &mut self,
         tile: &Tile,
         feature: &Feature,
         eye: DVec3,
         measure: Measure,
+        adds: &impl Fn(&Edge, f64) -> bool,
         found: &mut impl FnMut(Wall),
     ) {
         let nearest = eye.clamp(feature.envelope.min, feature.envelope.max);
         let is_near = (nearest - eye).truncate().abs().max_element() <= EYE_MARGIN;
         if !is_near && measure == Measure::Slope {
-            self.crests(tile, feature, eye, found);
+            self.crests(tile, feature, eye, adds, found);
+            if feature.hides_by_roof() {
+                return;
+            }
         }
         for column in &tile.columns[positions(&feature.columns)] {
             if is_near && holds(tile, column, eye) {
@@ -78,13 +83,20 @@ impl WallFinder {
             for ring in &tile.rings[positions(&column.rings)] {
                 let corners = positions(ring);
                 let buried = &tile.buried[corners.clone()];
-                self.ring(&tile.corners[corners], buried, height, eye, found);
+                self.ring(&tile.corners[corners], buried, height, eye, adds, found);
             }
         }
     }
 
     /// What is upright below the crests of a roof. The eye is beside it.
-    fn crests(&mut self, tile: &Tile, feature: &Feature, eye: DVec3, found: &mut impl FnMut(Wall)) {
+    fn crests(
+        &mut self,
+        tile: &Tile,
+        feature: &Feature,
+        eye: DVec3,
+        adds: &impl Fn(&Edge, f64) -> bool,
+        found: &mut impl FnMut(Wall),
+    ) {
         self.edges.clear();
         self.ends.clear();
         self.sides.iter_mut().for_each(Vec::clear);
@@ -105,6 +117,9 @@ impl WallFinder {
         }
         self.sides.iter_mut().for_each(|side| side.sort_unstable());
         for ((edge, facing), &[first, last]) in self.edges.iter().zip(&self.ends) {
+            if !adds(edge, first.1.max(last.1)) {
+                continue;
+            }
             let corner = |side: &Vec<u32>, end: u32| match side.binary_search(&end) {
                 Ok(_) => Corner::Drawn,
                 Err(_) => Corner::End,
@@ -138,6 +153,7 @@ impl WallFinder {
         buried: &[bool],
         height: f64,
         eye: DVec3,
+        adds: &impl Fn(&Edge, f64) -> bool,
         found: &mut impl FnMut(Wall),
     ) {
         let (wanted, height) = if height >= 0.0 {
@@ -153,7 +169,7 @@ impl WallFinder {
             (edge, edge.facing())
         }));
         for (at, (edge, facing)) in self.edges.iter().enumerate() {
-            if *facing != wanted || buried[at] {
+            if *facing != wanted || buried[at] || !adds(edge, height) {
                 continue;
             }
             let corner = |other: usize| {

@@ -169,11 +169,7 @@ impl Edge {
     pub fn spans(&self) -> impl Iterator<Item = (Span, bool, bool)> {
         // The line through the edge is where `normal · p = 1`.
         let normal = DVec2::new(self.along.y, -self.along.x) / self.area;
-        let (first, last) = if self.area > 0.0 {
-            (self.from, self.to)
-        } else {
-            (self.to, self.from)
-        };
+        let (first, last) = self.anticlockwise();
         let (begin, end) = (Side::leaving(first), Side::reaching(last));
         let steps = (end.0 + SIDES - begin.0) % SIDES;
         // An edge is seen over less than half a turn.
@@ -191,6 +187,16 @@ impl Edge {
             };
             (span, starts, ends)
         })
+    }
+
+    /// Its ends, the clockwise one first as the eye sees them.
+    #[inline]
+    pub fn anticlockwise(&self) -> (DVec2, DVec2) {
+        if self.area > 0.0 {
+            (self.from, self.to)
+        } else {
+            (self.to, self.from)
+        }
     }
 
     /// The vector whose product with a point of the edge is the height there, given those of its

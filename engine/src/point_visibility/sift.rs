@@ -1,9 +1,10 @@
 //! Sifting: which of many features are not hidden by what stands somewhere else.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 use glam::DVec3;
 
+use super::horizon::{COUNT, Horizon, slices};
 use super::projection::Span;
 use super::solver::{PointQuery, PointSolver, TileSource, Walker, What, depth, plan_corners};
 use super::target::outline_slopes;
@@ -71,6 +72,7 @@ impl PointSolver {
         let mut sifter = Sifter {
             sifting,
             limit: f64::INFINITY,
+            search: None,
             skip,
             found,
         };
@@ -82,8 +84,9 @@ impl PointSolver {
             .iter()
             .map(|(_, envelope)| depth(sifting.eye, envelope));
         sifter.limit = depths.fold(0.0, f64::max);
-        if let Some(lines) = outlines(sifting.eye, features) {
-            self.horizon.shut_beside(&lines);
+        sifter.search = Search::of(sifting.eye, features);
+        if let Some(search) = &sifter.search {
+            self.horizon.shut_beside(&search.lines);
         }
         let reach = 0.5 * sifting.near.size().truncate().max_element();
         let mut in_sight = Vec::new();
@@ -113,28 +116,61 @@ impl PointSolver {
     }
 }
 
-/// The lines of some boxes; `None` if the eye is above or below one.
-fn outlines(eye: DVec3, features: &[(Spot, Box3d)]) -> Option<Vec<Span>> {
-    let mut lines = Vec::new();
-    let flow = features.iter().try_for_each(|(_, envelope)| {
-        let corners = plan_corners(eye, envelope);
-        let before = lines.len();
-        outline_slopes(&corners, 1.0, |line| {
-            lines.push(*line);
-            ControlFlow::Continue(())
-        })?;
-        match lines.len() > before {
-            true => ControlFlow::Continue(()),
-            false => ControlFlow::Break(()),
+/// In which directions features are looked for.
+struct Search {
+    /// The lines of their boxes.
+    lines: Vec<Span>,
+    /// The features, and which of the lines are theirs.
+    features: Vec<(Spot, Range<usize>)>,
+    /// Of each slice of the horizon, how many of the lines pass it whose features are still to be met.
+    left: Vec<u32>,
+}
+
+impl Search {
+    /// The search for some features; `None` if the eye is above or below one.
+    fn of(eye: DVec3, features: &[(Spot, Box3d)]) -> Option<Self> {
+        let mut search = Self {
+            lines: Vec::new(),
+            features: Vec::with_capacity(features.len()),
+            left: vec![0; COUNT],
+        };
+        for (spot, envelope) in features {
+            let first = search.lines.len();
+            let flow = outline_slopes(&plan_corners(eye, envelope), 1.0, |line| {
+                search.lines.push(*line);
+                ControlFlow::Continue(())
+            });
+            if flow.is_break() || search.lines.len() == first {
+                return None;
+            }
+            search.features.push((*spot, first..search.lines.len()));
         }
-    });
-    flow.is_continue().then_some(lines)
+        for at in search.lines.iter().flat_map(slices) {
+            search.left[at] += 1;
+        }
+        Some(search)
+    }
+
+    /// Shuts the directions in which nothing more is looked for after a feature was met.
+    fn leave(&mut self, spot: Spot, horizon: &mut Horizon) {
+        let Some((_, lines)) = self.features.iter().find(|(other, _)| *other == spot) else {
+            return;
+        };
+        for at in self.lines[lines.clone()].iter().flat_map(slices) {
+            self.left[at] -= 1;
+            if self.left[at] == 0 {
+                horizon.shut_slice(at);
+            }
+        }
+    }
 }
 
 struct Sifter<'a, K, F> {
     sifting: &'a Sifting<'a>,
     /// Nothing that is farther in plan matters.
     limit: f64,
+    /// `None` where all around is looked at.
+    search: Option<Search>,
     skip: K,
     found: F,
 }
@@ -148,6 +184,16 @@ impl<K, F> Sifter<'_, K, F> {
 impl<K: Fn(Spot) -> bool, F: FnMut(Spot, Box3d)> Walker for Sifter<'_, K, F> {
     fn wants(&self, query: &PointQuery, bounds: &Box3d) -> bool {
         self.is_in_range(bounds) && depth(query.eye, bounds) < self.limit
+    }
+
+    fn leave(&mut self, solver: &mut PointSolver, tile: usize, position: usize) {
+        if let Some(search) = &mut self.search {
+            let spot = Spot {
+                tile,
+                feature: position,
+            };
+            search.leave(spot, &mut solver.horizon);
+        }
     }
 
     fn meet(

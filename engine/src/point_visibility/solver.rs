@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::horizon::Horizon;
 use super::occluder::{Measure, Wall, WallFinder};
-use super::projection::{Span, chebyshev};
+use super::projection::{Edge, Span, chebyshev};
 use super::target::{edge_slopes, outline_slopes};
 use super::tile::{Tile, TileFeature, positions};
 use super::{EYE_MARGIN, SHALLOW, SLOPE_MARGIN};
@@ -171,6 +171,7 @@ impl PointSolver {
                     if !walker.skips(self, query.eye, envelope) {
                         walker.meet(self, query, visit.tile, tile, position);
                     }
+                    walker.leave(self, visit.tile, position);
                     continue;
                 }
             };
@@ -305,8 +306,10 @@ impl PointSolver {
             });
             walls.push(wall);
         };
+        let adds = |edge: &Edge, height: f64| !horizon.is_above(edge, height);
         let feature = &tile.features[position];
-        self.finder.walls(tile, feature, eye, Measure::Slope, found);
+        self.finder
+            .walls(tile, feature, eye, Measure::Slope, &adds, found);
     }
 
     /// Whether a box is below the horizon.
@@ -387,6 +390,9 @@ pub(super) trait Walker {
     fn skips(&self, solver: &PointSolver, eye: DVec3, bounds: &Box3d) -> bool {
         solver.hides_box(eye, bounds)
     }
+
+    /// A feature that was among those to visit: it was met, or passed by.
+    fn leave(&mut self, _solver: &mut PointSolver, _tile: usize, _position: usize) {}
 
     /// A feature that is not passed by.
     fn meet(

@@ -60,8 +60,16 @@ pub struct Feature {
     pub columns: Range<u32>,
     /// Edges of its roof; none where nothing more than the prism is known.
     pub ridges: Range<u32>,
-    /// The first of these: those below which a solid is, well above the columns beside them.
+    /// The first of these: those that hide, as a solid is below them. All, if they hide instead of the
+    /// columns; otherwise those well above the columns beside them.
     pub crests: Range<u32>,
+}
+
+impl Feature {
+    /// Whether its roof hides all that its columns do, from beside it.
+    pub fn hides_by_roof(&self) -> bool {
+        !self.crests.is_empty() && self.crests == self.ridges
+    }
 }
 
 /// A column.
@@ -224,7 +232,11 @@ impl Tile {
         for column in &hiding {
             self.add_column(column, &walls);
         }
-        let crests = may_hide.map_or(Vec::new(), |roof| crests(roof, &hiding));
+        let walls = self.wall_count(first);
+        let crests = may_hide.map_or(Vec::new(), |roof| match 3 * roof.edges.len() <= 2 * walls {
+            true => roof.edges.clone(),
+            false => crests(roof, &hiding),
+        });
         let [crests, ridges] = self.add_roof(feature.roof.as_ref(), &crests);
         self.features.push(Feature {
             id: feature.id,
@@ -285,6 +297,16 @@ impl Tile {
             self.ridges.extend(placed);
         }
         first..index(self.ridges.len())
+    }
+
+    /// How many edges of columns from a position on may hide something.
+    fn wall_count(&self, first: u32) -> usize {
+        let columns = &self.columns[first as usize..];
+        let rings = columns
+            .iter()
+            .flat_map(|column| &self.rings[positions(&column.rings)]);
+        let buried = rings.flat_map(|ring| &self.buried[positions(ring)]);
+        buried.filter(|&&is_buried| !is_buried).count()
     }
 
     /// Adds the edges of a roof, the crests among them first, and returns where both are.

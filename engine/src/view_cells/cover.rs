@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::scene::CellScene;
-use super::solver::{CellQuery, CellSolver, around, parts, top};
+use super::solver::{CellQuery, CellSighting, CellSolver, around, parts, top};
 use crate::point_visibility::Spot;
 use crate::{Box3d, ViewRegion};
 
@@ -11,13 +11,16 @@ use crate::{Box3d, ViewRegion};
 /// of it, the largest of the four: that much would be loaded in vain on average.
 const GROWTH: f64 = 1.3;
 
+/// So many features more are never worth a division: courtyards see few, and every doorway adds some.
+const SPARE: usize = 12;
+
 /// A box of the view region with what can be seen from anywhere in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewCell {
     /// Where eyes may be, metres.
     pub bounds: Box3d,
-    /// The features that may be seen, by the positions of their tiles and their own.
-    pub visible: Vec<(usize, usize)>,
+    /// The features that may be seen, in the order of their positions.
+    pub visible: Vec<CellSighting>,
 }
 
 /// How a view region is covered with cells.
@@ -59,7 +62,9 @@ impl CellSolver {
                 true => self.count(scene, region, &query),
                 false => (0, usize::MAX),
             };
-            let grows = |count: usize| count as f64 > GROWTH * most as f64;
+            let grows = |count: usize| {
+                count.saturating_sub(SPARE) > most && count as f64 > GROWTH * most as f64
+            };
             // What points show needs no set.
             if grows(all) {
                 open.extend(parts(&square));
@@ -88,8 +93,8 @@ impl CellSolver {
         let mut all: HashSet<Spot> = HashSet::new();
         let counts = parts(&query.bounds).map(|part| {
             let eyes = around(&part).into_iter().chain([top(&part)]).filter(is_eye);
-            let seen = self.seen_from(scene, eyes, query.range);
-            all.extend(seen.iter().copied());
+            let seen: Vec<Spot> = self.seen_from(scene, eyes, query.range).copied().collect();
+            all.extend(&seen);
             seen.len()
         });
         let most = counts.max().unwrap_or(0);

@@ -15,5 +15,5 @@ mod way;
 pub use cover::{CoverOptions, ViewCell};
 pub use proof::witness;
 pub use scene::{CellScene, CellTile};
-pub use solver::{CellQuery, CellSolver};
+pub use solver::{CellQuery, CellSighting, CellSolver};
 pub use way::Way;

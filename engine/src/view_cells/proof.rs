@@ -1,52 +1,51 @@
 //! Which features of a visible set are proven to be visible.
 
+use std::collections::VecDeque;
+
 use glam::{DVec2, DVec3};
 
 use super::scene::{CellScene, Stage};
-use super::solver::{CellQuery, CellSolver};
+use super::solver::{CellQuery, CellSighting, CellSolver, half, parts, top};
 use crate::point_visibility::{Known, Sifting, Spot};
 use crate::{Box3d, Sought, Surfaces, Witness};
 
-/// From how many eyes along each edge of a cell one looks, and how hard: first from few, from where most
-/// features are seen, then from more.
-const ROUNDS: [Round; 3] = [
-    Round {
-        eyes: 2,
-        tops: 8,
-        anywhere: 1,
-    },
-    Round {
-        eyes: 3,
-        tops: 24,
-        anywhere: 4,
-    },
-    Round {
-        eyes: 5,
-        tops: 48,
-        anywhere: 8,
-    },
-];
+/// Metres between the eyes on a cell's edges and between them, at the most.
+const SPACING: f64 = 4.0;
 
-/// How one looks.
+/// How one looks from a grid of eyes, from the corners of a cell on: most features are seen from there.
+const FROM_GRID: Effort = Effort {
+    tops: 8,
+    anywhere: 1,
+};
+
+/// How one looks for what is not proven then, from where it may be seen.
+const FROM_WITHIN: Effort = Effort {
+    tops: 24,
+    anywhere: 4,
+};
+
+/// Parts of a cell from whose middles one looks have half edges no shorter than this, metres.
+const LEAST: f64 = 0.25;
+
+/// How much one looks for a feature: see [`Sought`].
 #[derive(Clone, Copy)]
-struct Round {
-    /// Along each edge.
-    eyes: usize,
-    /// See [`Sought`].
+struct Effort {
     tops: usize,
     anywhere: usize,
 }
 
 impl CellSolver {
-    /// The witnesses of those features of a visible set, by the positions of their tiles and their own, that
-    /// are proven to be visible from somewhere in the cell where an eye may be; `None` as soon as
-    /// `cancelled` says so.
+    /// The witnesses of those features of a visible set that are proven to be visible from somewhere in the
+    /// cell where an eye may be; `None` as soon as `cancelled` says so.
+    ///
+    /// First from a grid of eyes. What is not seen from there is looked for once more, from near the eye that
+    /// it was found with.
     pub fn prove(
         &mut self,
         scene: &CellScene,
         surfaces: &Surfaces,
         query: &CellQuery,
-        visible: &[(usize, usize)],
+        visible: &[CellSighting],
         is_open: &dyn Fn(&Box3d) -> bool,
         cancelled: &dyn Fn() -> bool,
     ) -> Option<Vec<Option<Witness>>> {
@@ -54,20 +53,21 @@ impl CellSolver {
         let tiles: Vec<usize> = (scene.len()..2 * scene.len()).collect();
         let mut stage = Stage::new(scene, None);
         let mut witnesses = vec![None; visible.len()];
-        let spot = |&(tile, feature): &(usize, usize)| Spot { tile, feature };
         let mut open: Vec<(Spot, Box3d)> = visible
             .iter()
-            .map(|place| (spot(place), scene.feature(*place).1))
+            .map(|CellSighting { feature, .. }| {
+                let (tile, position) = *feature;
+                let spot = Spot {
+                    tile,
+                    feature: position,
+                };
+                (spot, scene.feature(*feature).1)
+            })
             .collect();
-        for (eye, round) in looks(&query.bounds) {
+        let is_eye = |eye: DVec3| is_open(&Box3d::new(eye, eye)) && !scene.holds(eye);
+        for eye in grid(&query.bounds).filter(|eye| is_eye(*eye)) {
             if cancelled() {
                 return None;
-            }
-            if open.is_empty() {
-                break;
-            }
-            if !is_open(&Box3d::new(eye, eye)) || scene.holds(eye) {
-                continue;
             }
             let sifting = Sifting {
                 eye,
@@ -84,12 +84,22 @@ impl CellSolver {
             let Ok(_) = self.points.sift(&sifting, &mut stage, |_| false, found);
             for spot in seen {
                 let place = (spot.tile, spot.feature);
-                let sought = round.seeks(scene.feature(place).0, &within);
+                let sought = FROM_GRID.on(scene.feature(place).0, &within);
                 if let Some(witness) = surfaces.witness(eye, &sought) {
-                    let at = visible.binary_search(&place);
+                    let at = visible.binary_search_by_key(&place, |sighting| sighting.feature);
                     witnesses[at.expect("only these are sifted")] = Some(witness);
                     open.retain(|(other, _)| *other != spot);
                 }
+            }
+        }
+        for (sighting, witness) in visible.iter().zip(&mut witnesses) {
+            if cancelled() {
+                return None;
+            }
+            let eye = near(&query.bounds, sighting.eye);
+            if witness.is_none() && is_eye(eye) {
+                let (id, _) = scene.feature(sighting.feature);
+                *witness = surfaces.witness(eye, &FROM_WITHIN.on(id, &within));
             }
         }
         Some(witnesses)
@@ -106,9 +116,15 @@ pub fn witness(
     is_eye: &dyn Fn(DVec3) -> bool,
 ) -> Option<Witness> {
     let within = reach(query);
-    looks(&query.bounds)
-        .filter(|(eye, _)| is_eye(*eye))
-        .find_map(|(eye, round)| surfaces.witness(eye, &round.seeks(feature, &within)))
+    let from = |eye: DVec3, effort: Effort| {
+        let sought = effort.on(feature, &within);
+        is_eye(eye)
+            .then(|| surfaces.witness(eye, &sought))
+            .flatten()
+    };
+    grid(&query.bounds)
+        .find_map(|eye| from(eye, FROM_GRID))
+        .or_else(|| middles(&query.bounds).find_map(|eye| from(eye, FROM_WITHIN)))
 }
 
 /// Where sight lines from a cell may be.
@@ -119,8 +135,8 @@ fn reach(query: &CellQuery) -> Box3d {
     }
 }
 
-impl Round {
-    fn seeks(self, feature: i64, within: &Box3d) -> Sought<'_> {
+impl Effort {
+    fn on(self, feature: i64, within: &Box3d) -> Sought<'_> {
         Sought {
             feature,
             within,
@@ -130,16 +146,39 @@ impl Round {
     }
 }
 
-/// Eyes on the upper face of a cell, its corners first, and how hard each looks.
-fn looks(cell: &Box3d) -> impl Iterator<Item = (DVec3, Round)> + use<> {
+/// The corners of the upper face of a cell, and places between them.
+fn grid(cell: &Box3d) -> impl Iterator<Item = DVec3> + use<> {
     let cell = *cell;
-    ROUNDS.into_iter().flat_map(move |round| {
-        let count = round.eyes;
-        (0..count * count).map(move |at| {
-            let share = DVec2::new((at % count) as f64, (at / count) as f64) / (count - 1) as f64;
-            let (low, high) = (cell.min.truncate(), cell.max.truncate());
-            let place = low * (1.0 - share) + high * share;
-            (place.extend(cell.max.z), round)
-        })
+    let count = (2.0 * half(&cell) / SPACING).ceil().max(1.0) as usize;
+    (0..(count + 1) * (count + 1)).map(move |at| {
+        let steps = DVec2::new((at % (count + 1)) as f64, (at / (count + 1)) as f64);
+        let share = steps / count as f64;
+        let (low, high) = (cell.min.truncate(), cell.max.truncate());
+        (low * (1.0 - share) + high * share).extend(cell.max.z)
     })
+}
+
+/// The middle of the part of a cell, or of its parts and so on, in which a place is.
+fn near(cell: &Box3d, place: DVec3) -> DVec3 {
+    let mut cell = *cell;
+    while let Some(part) = divided(&cell).find(|part| part.contains_point(place)) {
+        cell = part;
+    }
+    top(&cell)
+}
+
+/// The middles of a cell, of its parts, and so on: all that [`near`] may be.
+fn middles(cell: &Box3d) -> impl Iterator<Item = DVec3> + use<> {
+    let mut open = VecDeque::from([*cell]);
+    std::iter::from_fn(move || {
+        let cell = open.pop_front()?;
+        open.extend(divided(&cell));
+        Some(top(&cell))
+    })
+}
+
+/// The parts of a cell, unless they are too small.
+fn divided(cell: &Box3d) -> impl Iterator<Item = Box3d> + use<> {
+    let is_large = half(cell) >= 2.0 * LEAST;
+    parts(cell).filter(move |_| is_large)
 }

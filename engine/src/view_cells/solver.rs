@@ -1,6 +1,6 @@
 //! [`CellSolver`], the visible set of a view cell.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::iter::successors;
 
 use glam::DVec3;
@@ -43,6 +43,15 @@ impl CellQuery {
     }
 }
 
+/// A feature that may be seen from somewhere in a view cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CellSighting {
+    /// Positions of its tile and its own.
+    pub feature: (usize, usize),
+    /// An eye from which it is not known to be hidden, or the middle of a part of the cell.
+    pub eye: DVec3,
+}
+
 /// Finds what can be seen from anywhere in a view cell.
 ///
 /// Conservative: what it leaves out can be seen from no eye in the cell that is outside of all solids
@@ -50,7 +59,8 @@ impl CellQuery {
 #[derive(Debug, Default)]
 pub struct CellSolver {
     pub(super) points: PointSolver,
-    seen: HashSet<Spot>,
+    /// With an eye that sees each.
+    seen: HashMap<Spot, DVec3>,
     /// How many problems of a point were solved.
     pub solves: usize,
 }
@@ -64,8 +74,8 @@ struct Left {
 }
 
 impl CellSolver {
-    /// The features that may be seen from somewhere in a cell, by the positions of their tiles and their
-    /// own; `None` as soon as `cancelled` says so. `is_open` says whether an eye may be anywhere in a box,
+    /// The features that may be seen from somewhere in a cell, in the order of their positions; `None` as
+    /// soon as `cancelled` says so. `is_open` says whether an eye may be anywhere in a box,
     /// which may be a single point; if in doubt, it may.
     pub fn solve(
         &mut self,
@@ -73,7 +83,7 @@ impl CellSolver {
         query: &CellQuery,
         is_open: &dyn Fn(&Box3d) -> bool,
         cancelled: &dyn Fn() -> bool,
-    ) -> Option<Vec<(usize, usize)>> {
+    ) -> Option<Vec<CellSighting>> {
         self.seen.clear();
         self.solves = 0;
         let mut search = Search {
@@ -89,12 +99,12 @@ impl CellSolver {
         if cancelled() {
             return None;
         }
-        let mut seen: Vec<(usize, usize)> = self
-            .seen
-            .iter()
-            .map(|spot| (spot.tile, spot.feature))
-            .collect();
-        seen.sort_unstable();
+        let sighting = |(spot, eye): (&Spot, &DVec3)| CellSighting {
+            feature: (spot.tile, spot.feature),
+            eye: *eye,
+        };
+        let mut seen: Vec<CellSighting> = self.seen.iter().map(sighting).collect();
+        seen.sort_unstable_by_key(|sighting| sighting.feature);
         Some(seen)
     }
 
@@ -104,12 +114,12 @@ impl CellSolver {
         scene: &CellScene,
         eyes: impl Iterator<Item = DVec3>,
         range: f64,
-    ) -> &HashSet<Spot> {
+    ) -> impl Iterator<Item = &Spot> {
         self.seen.clear();
         for eye in eyes {
             self.look_from(scene, eye, range);
         }
-        &self.seen
+        self.seen.keys()
     }
 
     /// Notes what is seen from a point.
@@ -127,7 +137,14 @@ impl CellSolver {
             tile: seen.tile,
             feature: seen.feature,
         });
-        self.seen.extend(spots);
+        self.note(spots, eye);
+    }
+
+    /// Notes what is seen from an eye.
+    fn note(&mut self, spots: impl Iterator<Item = Spot>, eye: DVec3) {
+        for spot in spots {
+            self.seen.entry(spot).or_insert(eye);
+        }
     }
 }
 
@@ -167,9 +184,8 @@ impl Search<'_> {
         }
         let half = half(cell);
         if half <= self.precision {
-            self.solver
-                .seen
-                .extend(left.features.iter().map(|(spot, _)| *spot));
+            let spots = left.features.iter().map(|(spot, _)| *spot);
+            self.solver.note(spots, top(cell));
             return;
         }
         if half >= LEAST_SAMPLED {
@@ -177,7 +193,7 @@ impl Search<'_> {
         }
         for part in parts(cell) {
             left.features
-                .retain(|(spot, _)| !self.solver.seen.contains(spot));
+                .retain(|(spot, _)| !self.solver.seen.contains_key(spot));
             if left.features.is_empty() {
                 return;
             }
@@ -207,9 +223,8 @@ impl Search<'_> {
         if self.is_eye(eye) {
             let near = Box3d::new(eye, eye);
             let seen = self.sift_from(eye, near, None, Some(left));
-            self.solver
-                .seen
-                .extend(seen.features.iter().map(|(spot, _)| *spot));
+            let spots = seen.features.iter().map(|(spot, _)| *spot);
+            self.solver.note(spots, eye);
         }
     }
 
@@ -247,7 +262,7 @@ impl Search<'_> {
         } = &mut *self.solver;
         *solves += 1;
         let mut features = Vec::new();
-        let skip = |spot: Spot| seen.contains(&spot);
+        let skip = |spot: Spot| seen.contains_key(&spot);
         let Ok(tiles) = points.sift(&sifting, stage, skip, |spot, envelope| {
             features.push((spot, envelope));
         });
@@ -256,7 +271,7 @@ impl Search<'_> {
 }
 
 /// Half of the longer edge in plan, metres.
-fn half(cell: &Box3d) -> f64 {
+pub(super) fn half(cell: &Box3d) -> f64 {
     0.5 * cell.size().truncate().max_element()
 }
 
@@ -359,7 +374,9 @@ mod tests {
         let mut solver = CellSolver::default();
         let mut set = |precision| {
             let set = solver.solve(&scene, &query(16.0, precision), &|_| true, &|| false);
-            (set.unwrap_or_default(), solver.solves)
+            let set = set.unwrap_or_default().into_iter();
+            let set: Vec<(usize, usize)> = set.map(|sighting| sighting.feature).collect();
+            (set, solver.solves)
         };
         let ((divided, _), (whole, solves)) = (set(0.25), set(f64::INFINITY));
         // From two points, and once from everywhere.

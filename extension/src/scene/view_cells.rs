@@ -13,7 +13,9 @@ use crate::settings;
 use crate::snapshot_read::{Moment, sees_the_latest};
 use crate::types::Box3d;
 use crate::visibility::{Around, Surroundings};
-use engine::{CellQuery, CellSolver, CoverOptions, Street, ViewCell, ViewRegion, plan_key};
+use engine::{
+    CellQuery, CellSighting, CellSolver, CoverOptions, Street, ViewCell, ViewRegion, plan_key,
+};
 use geo::BoundingRect;
 use glam::DVec3;
 use pgrx::datum::DatumWithOid;
@@ -470,7 +472,7 @@ fn prove(
         &is_open,
         stop,
     )?;
-    let id = |spot: &(usize, usize)| around.scene.feature(*spot).0;
+    let id = |seen: &CellSighting| around.scene.feature(seen.feature).0;
     let unproven = cell.visible.iter().zip(&witnesses);
     let unproven = unproven.filter(|(_, witness)| witness.is_none());
     Some(Made {

@@ -61,7 +61,7 @@ impl CellTrial {
             };
             let seen = solver.solve(&scene, &query, &|_| true, &|| false);
             let seen = seen.unwrap_or_default();
-            let ids = seen.iter().map(|&spot| scene.feature(spot).0);
+            let ids = seen.iter().map(|seen| scene.feature(seen.feature).0);
             let mut answer: Vec<i64> = ids.collect();
             answer.sort_unstable();
             self.counts.queries += 1;

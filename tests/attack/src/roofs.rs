@@ -16,11 +16,16 @@ use crate::trial::{Counts, EYES, FIELDS, range};
 const PLANES: usize = 6;
 const POINTS: usize = 6;
 
+/// Walls on each side of an intricate block: more than most roofs have edges.
+const WALLS: usize = 6;
+
 /// A house: what is seen of it, and a block in it.
 #[derive(Clone, Debug)]
 struct House {
     mesh: TriangleMesh,
     block: Option<[DVec3; 4]>,
+    /// Whether the block has so many walls that the roof hides in its place.
+    is_intricate: bool,
 }
 
 /// Something that was left out and can be seen.
@@ -221,12 +226,16 @@ impl House {
         let put =
             |p: DVec3| (place + corner + DVec2::from_angle(angle).rotate(p.truncate())).extend(p.z);
         let (width, depth) = (whole(rng, 1, 9), whole(rng, 1, 9));
-        match rng.u8(..8) {
+        let house = match rng.u8(..8) {
             0 => pyramid(rng, width, depth, &put),
             1 => on_stilts(rng, width, depth, &put),
             2 => field(rng, width, depth, &put),
             3 => sheltered(rng, width, depth, &put),
             _ => House::ridged(rng, [width, depth], &put),
+        };
+        Self {
+            is_intricate: rng.bool(),
+            ..house
         }
     }
 
@@ -243,7 +252,23 @@ impl House {
         Self {
             mesh: TriangleMesh::from_polygons(faces),
             block,
+            is_intricate: false,
         }
+    }
+
+    /// The corners of its block in plan: those of an intricate one are a little within it.
+    fn ring(&self, corners: &[DVec3; 4]) -> Vec<(f64, f64)> {
+        let place = |corner: DVec3| (corner.x, corner.y);
+        if !self.is_intricate {
+            return corners.map(place).to_vec();
+        }
+        let middle = corners[0].midpoint(corners[2]);
+        let drawn_in = corners.map(|corner| corner.lerp(middle, 0.01));
+        let of_a_side = |at: usize| {
+            let [from, to] = [drawn_in[at], drawn_in[(at + 1) % 4]];
+            (0..WALLS).map(move |step| place(from.lerp(to, step as f64 / WALLS as f64)))
+        };
+        (0..4).flat_map(of_a_side).collect()
     }
 
     fn feature((house, id): (&Self, i64)) -> TileFeature {
@@ -251,9 +276,8 @@ impl House {
         let prism = OuterPrism::around(house.mesh.vertices.iter().copied());
         let columns = house.block.iter().map(|corners| {
             let top = corners[0].z;
-            let ring = corners.map(|corner| (corner.x, corner.y)).to_vec();
             SolidColumn {
-                footprint: geo::Polygon::new(ring.into(), Vec::new()),
+                footprint: geo::Polygon::new(house.ring(corners).into(), Vec::new()),
                 bottom: 0.0,
                 top,
                 grounded: true,

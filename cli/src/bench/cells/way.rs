@@ -81,7 +81,9 @@ impl Way for Eroding<'_> {
         let scene = CellScene::new(self.tiles.iter().filter(is_near).cloned().collect());
         let is_open = |bounds: &Box3d| self.window.region.touches(bounds);
         let set = self.solver.solve(&scene, &query, &is_open, &|| false);
-        let spots = set.unwrap_or_default().into_iter();
-        spots.map(|spot| scene.feature(spot).0).collect()
+        let sightings = set.unwrap_or_default().into_iter();
+        sightings
+            .map(|seen| scene.feature(seen.feature).0)
+            .collect()
     }
 }

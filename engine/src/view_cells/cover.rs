@@ -1,17 +1,16 @@
 //! [`ViewCell`], and how a part of the view region is covered with such.
 
-use std::collections::HashSet;
+use std::collections::BTreeMap;
 
 use super::scene::CellScene;
-use super::solver::{CellQuery, CellSighting, CellSolver, around, parts, top};
-use crate::point_visibility::Spot;
+use super::solver::{CellQuery, CellSighting, CellSolver, parts};
 use crate::{Box3d, ViewRegion};
 
-/// A cell is divided if its set is larger by more than this than what is seen from points in a quarter
-/// of it, the largest of the four: that much would be loaded in vain on average.
+/// Cells are not joined if the set of all is larger by more than this than the largest of theirs: that much
+/// would be loaded in vain.
 const GROWTH: f64 = 1.3;
 
-/// So many features more are never worth a division: courtyards see few, and every doorway adds some.
+/// So many features more never matter: courtyards see few, and every doorway adds some.
 const SPARE: usize = 12;
 
 /// A box of the view region with what can be seen from anywhere in it.
@@ -38,6 +37,9 @@ impl CellSolver {
     /// Cells that cover all of the view region that lies in a square of the plan, whose heights do not
     /// matter: the square, or parts of it where what is seen changes fast. `None` as soon as `cancelled`
     /// says so.
+    ///
+    /// The smallest parts are solved, and joined where that adds little: what is seen from a part of a cell
+    /// is seen from the cell, and the other way round.
     pub fn cover(
         &mut self,
         scene: &CellScene,
@@ -46,58 +48,41 @@ impl CellSolver {
         options: &CoverOptions,
         cancelled: &dyn Fn() -> bool,
     ) -> Option<Vec<ViewCell>> {
-        let mut cells = Vec::new();
-        let mut open = vec![*square];
-        while let Some(square) = open.pop() {
-            let Some(bounds) = region.filled(&square) else {
-                continue;
-            };
+        let Some(bounds) = region.filled(square) else {
+            return Some(Vec::new());
+        };
+        if square.size().truncate().max_element() <= options.smallest {
             let query = CellQuery {
                 bounds,
                 range: options.range,
                 precision: options.precision,
             };
-            let may_divide = square.size().truncate().max_element() > options.smallest;
-            let (all, most) = match may_divide {
-                true => self.count(scene, region, &query),
-                false => (0, usize::MAX),
-            };
-            let grows = |count: usize| {
-                count.saturating_sub(SPARE) > most && count as f64 > GROWTH * most as f64
-            };
-            // What points show needs no set.
-            if grows(all) {
-                open.extend(parts(&square));
-                continue;
-            }
             let is_open = |bounds: &Box3d| region.touches(bounds);
             let visible = self.solve(scene, &query, &is_open, cancelled)?;
-            if grows(visible.len()) {
-                open.extend(parts(&square));
-            } else {
-                cells.push(ViewCell { bounds, visible });
-            }
+            return Some(vec![ViewCell { bounds, visible }]);
         }
-        Some(cells)
+        let mut cells = Vec::new();
+        let mut are_whole = true;
+        for part in parts(square) {
+            let of_part = self.cover(scene, region, &part, options, cancelled)?;
+            are_whole &= of_part.len() <= 1;
+            cells.extend(of_part);
+        }
+        let joined = are_whole.then(|| joined(&cells)).flatten();
+        Some(match joined {
+            Some(visible) => vec![ViewCell { bounds, visible }],
+            None => cells,
+        })
     }
+}
 
-    /// How many features are seen from five points in each quarter of a cell together, and from those of
-    /// the quarter from which most are seen.
-    fn count(
-        &mut self,
-        scene: &CellScene,
-        region: &ViewRegion,
-        query: &CellQuery,
-    ) -> (usize, usize) {
-        let is_eye = |&eye: &_| region.touches(&Box3d::new(eye, eye)) && !scene.holds(eye);
-        let mut all: HashSet<Spot> = HashSet::new();
-        let counts = parts(&query.bounds).map(|part| {
-            let eyes = around(&part).into_iter().chain([top(&part)]).filter(is_eye);
-            let seen: Vec<Spot> = self.seen_from(scene, eyes, query.range).copied().collect();
-            all.extend(&seen);
-            seen.len()
-        });
-        let most = counts.max().unwrap_or(0);
-        (all.len(), most)
+/// What is seen from some cells together; `None` if that is much more than from each.
+fn joined(cells: &[ViewCell]) -> Option<Vec<CellSighting>> {
+    let mut all = BTreeMap::new();
+    for sighting in cells.iter().flat_map(|cell| &cell.visible) {
+        all.entry(sighting.feature).or_insert(*sighting);
     }
+    let most = cells.iter().map(|cell| cell.visible.len()).max()?;
+    let is_little = all.len() <= most + SPARE || all.len() as f64 <= GROWTH * most as f64;
+    is_little.then(|| all.into_values().collect())
 }

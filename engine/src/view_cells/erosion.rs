@@ -1,12 +1,14 @@
 //! [`eroded`], columns from which a border is taken away.
 
 use geo::bool_ops::unary_union;
+use geo::orient::Direction;
 use geo::{
     Area, BooleanOps, BoundingRect, ConvexHull, Coord, Line, LineString, MultiPoint, MultiPolygon,
-    Polygon,
+    Orient, Polygon,
 };
 
 use super::crack::cracks;
+use super::simpler::simpler;
 use crate::SolidColumn;
 
 /// Metres by which more is taken away than was asked for, in plan and from above. It covers the
@@ -17,12 +19,19 @@ const EROSION_MARGIN: f64 = 1e-3;
 /// overlay would be too coarse for [`EROSION_MARGIN`].
 const FARTHEST: f64 = 50_000.0;
 
-/// Heights of a group that are told apart. Where there are more, columns count as a little lower than
-/// they are.
+/// Heights of a group that are told apart differ by more than this, metres: in between, columns count as a
+/// little lower than they are.
+const STEP: f64 = 0.2;
+
+/// Most heights that are told apart.
 const MOST_HEIGHTS: usize = 24;
 
 /// Pieces with less area than this, square metres, hide next to nothing.
 const LEAST_AREA: f64 = 1e-2;
+
+/// Corners of what is left that stick out by no more than this share of the erosion are cut off: the
+/// erosion of a slanted wall has many.
+const DRAWN_IN: f64 = 0.05;
 
 /// All points around which a square of edge `2 * half` metres lies in the union of grounded columns, or
 /// a little less. Columns that are not grounded are left out, and heights stay as they are.
@@ -45,15 +54,17 @@ pub fn eroded<'a>(
         let count = rest.partition_point(|column| column.top >= height);
         let (higher, lower) = rest.split_at(count);
         rest = lower;
-        let added = higher.iter().map(|column| &column.footprint);
-        solid = unary_union(solid.iter().chain(added));
+        for level in higher.chunk_by(|a, b| a.top == b.top) {
+            let added = level.iter().map(|column| &column.footprint);
+            solid = unary_union(solid.iter().chain(added));
+        }
         let pieces = without_border(&solid, &cracks, half + EROSION_MARGIN);
         let pieces: Vec<Polygon> = pieces
             .into_iter()
             .filter(|piece| adds(piece, &left))
             .collect();
         left.extend(pieces.into_iter().map(|footprint| SolidColumn {
-            footprint,
+            footprint: simpler(&footprint.orient(Direction::Default), DRAWN_IN * half),
             bottom,
             top: height,
             grounded: true,
@@ -62,10 +73,16 @@ pub fn eroded<'a>(
     left
 }
 
-/// The heights of columns, highest first, or so many of them.
+/// Some of the heights of columns, which come highest first: no column is much higher than the next of them
+/// below it, unless there are too many.
 fn heights(columns: &[&SolidColumn]) -> Vec<f64> {
-    let mut heights: Vec<f64> = columns.iter().map(|column| column.top).collect();
-    heights.dedup();
+    let mut heights: Vec<f64> = Vec::new();
+    for column in columns.iter().rev() {
+        if heights.last().is_none_or(|below| column.top - below > STEP) {
+            heights.push(column.top);
+        }
+    }
+    heights.reverse();
     let count = heights.len();
     if count <= MOST_HEIGHTS {
         return heights;
@@ -120,8 +137,7 @@ fn swept(edge: &Line, half: f64) -> Polygon {
 
 #[cfg(test)]
 mod tests {
-    use geo::orient::Direction;
-    use geo::{Orient, Rect, coord};
+    use geo::{Rect, coord};
 
     use super::*;
 

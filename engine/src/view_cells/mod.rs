@@ -9,6 +9,7 @@ mod crack;
 mod erosion;
 mod proof;
 mod scene;
+mod simpler;
 mod solver;
 mod way;
 

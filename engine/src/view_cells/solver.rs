@@ -108,20 +108,6 @@ impl CellSolver {
         Some(seen)
     }
 
-    /// The features that are seen from some points, all together.
-    pub(super) fn seen_from(
-        &mut self,
-        scene: &CellScene,
-        eyes: impl Iterator<Item = DVec3>,
-        range: f64,
-    ) -> impl Iterator<Item = &Spot> {
-        self.seen.clear();
-        for eye in eyes {
-            self.look_from(scene, eye, range);
-        }
-        self.seen.keys()
-    }
-
     /// Notes what is seen from a point.
     fn look_from(&mut self, scene: &CellScene, eye: DVec3, range: f64) {
         let query = PointQuery {
@@ -286,7 +272,7 @@ pub(super) fn top(cell: &Box3d) -> DVec3 {
 }
 
 /// Points halfway between the middle of its upper face and the corners of that.
-pub(super) fn around(cell: &Box3d) -> [DVec3; 4] {
+fn around(cell: &Box3d) -> [DVec3; 4] {
     let corners = cell.corners();
     [4, 5, 6, 7].map(|at: usize| corners[at].midpoint(top(cell)))
 }

@@ -9,45 +9,46 @@ SET search_path = pg_catalog, pg_temp AS $$
 BEGIN
     EXECUTE format($ddl$
         CREATE TABLE %1$I.view_cell (
-            id bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
+            id bigint PRIMARY KEY,
             box occlusion.box3d NOT NULL,
-            range float8 NOT NULL CHECK (range > 0),
             visible occlusion.feature_set NOT NULL,
-            unproven occlusion.feature_set NOT NULL,
-            snapshot pg_snapshot NOT NULL,
-            cluster bigint NOT NULL
+            unproven occlusion.feature_set NOT NULL
         );
-        CREATE INDEX view_cell_box ON %1$I.view_cell USING gist (box);
         COMMENT ON TABLE %1$I.view_cell IS 'what can be seen from anywhere in a box of the view region; derived';
-        COMMENT ON COLUMN %1$I.view_cell.id IS 'number of the cell';
+        COMMENT ON COLUMN %1$I.view_cell.id IS 'number of the cell: that of its square, times 4194304, and a number in there';
         COMMENT ON COLUMN %1$I.view_cell.box IS 'where eyes are, metres';
-        COMMENT ON COLUMN %1$I.view_cell.range IS 'how far they see, metres';
         COMMENT ON COLUMN %1$I.view_cell.visible IS 'slots of the features that may be seen from somewhere in the box';
         COMMENT ON COLUMN %1$I.view_cell.unproven IS 'those of them for which no witness was found';
-        COMMENT ON COLUMN %1$I.view_cell.snapshot IS 'edits that this snapshot does not show are not in the set';
-        COMMENT ON COLUMN %1$I.view_cell.cluster IS 'system identifier of the cluster whose transactions the snapshot is about';
 
         CREATE TABLE %1$I.view_cell_block (
             id bigint PRIMARY KEY,
             area occlusion.box3d NOT NULL,
-            range float8 NOT NULL,
+            range float8 NOT NULL CHECK (range > 0),
             smallest float8 NOT NULL,
             largest float8 NOT NULL,
             finest float8 NOT NULL,
             done boolean NOT NULL DEFAULT false,
-            visible occlusion.feature_set NOT NULL DEFAULT '{}'
+            box occlusion.box3d,
+            visible occlusion.feature_set NOT NULL DEFAULT '{}',
+            snapshot pg_snapshot,
+            cluster bigint
         );
         CREATE INDEX view_cell_block_open ON %1$I.view_cell_block (id) WHERE NOT done;
+        CREATE INDEX view_cell_block_box ON %1$I.view_cell_block USING gist (box);
+        CREATE INDEX view_cell_block_cluster ON %1$I.view_cell_block (cluster);
         CREATE INDEX view_cell_block_visible ON %1$I.view_cell_block USING gin (visible) WITH (fastupdate = off);
         COMMENT ON TABLE %1$I.view_cell_block IS 'squares of the view region, each covered with view cells in one transaction; derived';
-        COMMENT ON COLUMN %1$I.view_cell_block.id IS 'number, along a curve through the plan';
+        COMMENT ON COLUMN %1$I.view_cell_block.id IS 'number, by its place: along a curve through the plan';
         COMMENT ON COLUMN %1$I.view_cell_block.area IS 'the square, at height 0';
         COMMENT ON COLUMN %1$I.view_cell_block.range IS 'how far eyes see, metres';
         COMMENT ON COLUMN %1$I.view_cell_block.smallest IS 'edge below which no cell is divided, metres';
         COMMENT ON COLUMN %1$I.view_cell_block.largest IS 'longest edge of a cell, metres';
         COMMENT ON COLUMN %1$I.view_cell_block.finest IS 'half edge of the smallest parts of a cell that are told apart, metres';
         COMMENT ON COLUMN %1$I.view_cell_block.done IS 'whether its cells are there';
+        COMMENT ON COLUMN %1$I.view_cell_block.box IS 'box around its cells; NULL: it has none yet';
         COMMENT ON COLUMN %1$I.view_cell_block.visible IS 'slots of the features that may be seen from one of its cells';
+        COMMENT ON COLUMN %1$I.view_cell_block.snapshot IS 'edits that this snapshot does not show are not in its cells'' sets';
+        COMMENT ON COLUMN %1$I.view_cell_block.cluster IS 'system identifier of the cluster whose transactions the snapshot is about';
 
         CREATE TABLE %1$I.change (
             feature bigint,
@@ -82,40 +83,39 @@ LANGUAGE c AS 'MODULE_PATHNAME', 'generate_view_cells_wrapper';
 COMMENT ON PROCEDURE occlusion.generate_view_cells(text, float8, float8, float8, float8) IS
     'computes what can be seen from every part of the streets; goes on where it was interrupted, and shares the work with other sessions that call it; range: how far eyes see, smallest and largest: edges of cells, finest: half edge of the smallest parts of a cell that are told apart, all in metres';
 
--- Whether a view cell c is right under the snapshot of the query: no edit that the query sees and the cell
--- does not is near it. Edits without a place are looked through, and not the features nearby, which are many
--- more as a rule. It is only asked where the cluster is the one whose transactions the cell names.
-CREATE FUNCTION occlusion.valid_cell_condition(scene text) RETURNS text
+-- Whether the view cells of a square b are right under the snapshot of the query: no edit that the query sees
+-- and the cells do not is near them. Edits without a place are looked through, and not the features nearby,
+-- which are many more as a rule. It is only asked where the cluster is the one whose transactions the square names.
+CREATE FUNCTION occlusion.valid_cells_condition(scene text) RETURNS text
 LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
 SET search_path = pg_catalog, pg_temp AS $$
     SELECT format($q$
         NOT EXISTS (
             SELECT FROM %1$I.change AS e
-            WHERE e.place OPERATOR(occlusion.&&) occlusion.expand(c.box, c.range)
-              AND (e.feature IS NOT NULL OR e.place OPERATOR(occlusion.&&) c.box)
-              AND NOT pg_catalog.pg_visible_in_snapshot(e.transaction, c.snapshot)
+            WHERE e.place OPERATOR(occlusion.&&) occlusion.expand(b.box, b.range)
+              AND (e.feature IS NOT NULL OR e.place OPERATOR(occlusion.&&) b.box)
+              AND NOT pg_catalog.pg_visible_in_snapshot(e.transaction, b.snapshot)
         ) AND NOT EXISTS (
             SELECT FROM %1$I.change AS e
-            WHERE e.place IS NULL AND NOT pg_catalog.pg_visible_in_snapshot(e.transaction, c.snapshot)
+            WHERE e.place IS NULL AND NOT pg_catalog.pg_visible_in_snapshot(e.transaction, b.snapshot)
               AND (SELECT f.envelope FROM %1$I.feature AS f WHERE f.id OPERATOR(pg_catalog.=) e.feature)
-                      OPERATOR(occlusion.&&) occlusion.expand(c.box, c.range)
+                      OPERATOR(occlusion.&&) occlusion.expand(b.box, b.range)
         )
     $q$, scene)
 $$;
-COMMENT ON FUNCTION occlusion.valid_cell_condition(text) IS
-    'the condition that a view cell, c, holds what can be seen now';
+COMMENT ON FUNCTION occlusion.valid_cells_condition(text) IS
+    'the condition that the view cells of a square, b, hold what can be seen now';
 
--- That a cell c lies in a block b.
+-- That a cell c is one of a square b.
 CREATE FUNCTION occlusion.cell_in_block_condition() RETURNS text
 LANGUAGE sql IMMUTABLE PARALLEL SAFE
 SET search_path = pg_catalog, pg_temp AS $$
     SELECT $q$
-        c.box OPERATOR(occlusion.<@) occlusion.box3d(
-            occlusion.point3d(occlusion.x(occlusion.lower(b.area)), occlusion.y(occlusion.lower(b.area)), -1e300),
-            occlusion.point3d(occlusion.x(occlusion.upper(b.area)), occlusion.y(occlusion.upper(b.area)), 1e300))
+        c.id OPERATOR(pg_catalog.>=) (b.id OPERATOR(pg_catalog.<<) 22)
+        AND c.id OPERATOR(pg_catalog.<) ((b.id OPERATOR(pg_catalog.+) 1) OPERATOR(pg_catalog.<<) 22)
     $q$
 $$;
-COMMENT ON FUNCTION occlusion.cell_in_block_condition() IS 'the condition that a view cell, c, lies in a block, b';
+COMMENT ON FUNCTION occlusion.cell_in_block_condition() IS 'the condition that a view cell, c, is one of a square, b';
 
 -- The cells that hold an eye, $1, in a cluster, $2, and are right; none where the eye is not in the view
 -- region, or within a millimetre of a solid.
@@ -123,12 +123,14 @@ CREATE FUNCTION occlusion.view_cell_statement(scene text) RETURNS text
 LANGUAGE sql STABLE STRICT PARALLEL SAFE
 SET search_path = pg_catalog, pg_temp AS $$
     SELECT format($q$
-        SELECT c.visible::occlusion.feature_set, c.box::occlusion.box3d, c.range::pg_catalog.float8,
-               c.id::pg_catalog.int8, c.snapshot::pg_catalog.pg_snapshot
-        FROM %1$I.view_cell AS c
-        WHERE c.box OPERATOR(occlusion.@>) $1 AND c.cluster OPERATOR(pg_catalog.=) $2 AND %2$s AND (SELECT %3$s)
+        SELECT c.visible::occlusion.feature_set, c.box::occlusion.box3d, b.range::pg_catalog.float8,
+               c.id::pg_catalog.int8, b.snapshot::pg_catalog.pg_snapshot
+        FROM %1$I.view_cell_block AS b JOIN %1$I.view_cell AS c ON %4$s
+        WHERE b.box OPERATOR(occlusion.@>) $1 AND c.box OPERATOR(occlusion.@>) $1
+          AND b.cluster OPERATOR(pg_catalog.=) $2 AND %2$s AND (SELECT %3$s)
         LIMIT 1
-    $q$, scene, occlusion.valid_cell_condition(scene), occlusion.is_eye_condition(scene))
+    $q$, scene, occlusion.valid_cells_condition(scene), occlusion.is_eye_condition(scene),
+         occlusion.cell_in_block_condition())
 $$;
 COMMENT ON FUNCTION occlusion.view_cell_statement(text) IS 'the statement that finds the view cell of an eye';
 
@@ -170,7 +172,7 @@ BEGIN
             USING ERRCODE = 'object_not_in_prerequisite_state',
                   HINT = format('An older version made it: SELECT occlusion.upgrade_scene(%L) adds them.', scene);
     END IF;
-    FOREACH source IN ARRAY ARRAY['feature', 'street', 'view_cell', 'change'] LOOP
+    FOREACH source IN ARRAY ARRAY['feature', 'street', 'view_cell', 'view_cell_block', 'change'] LOOP
         IF row_security_active(format('%I.%I', scene, source)) THEN
             RAISE EXCEPTION 'row security hides rows of %.%', quote_ident(scene), source
                 USING ERRCODE = 'insufficient_privilege',
@@ -185,36 +187,17 @@ COMMENT ON FUNCTION occlusion.require_all_cells(text) IS
 
 CREATE FUNCTION occlusion.visible_from(scene text, feature_id bigint)
 RETURNS TABLE (box occlusion.box3d, proven boolean)
-LANGUAGE plpgsql STABLE STRICT PARALLEL SAFE COST 10000
-SET search_path = pg_catalog, pg_temp AS $$
-DECLARE
-    slot integer;
-    envelope occlusion.box3d;
-BEGIN
-    PERFORM occlusion.require_all_cells(scene);
-    EXECUTE format('SELECT f.slot, f.envelope FROM %I.feature AS f WHERE f.id = $1', scene)
-        INTO slot, envelope USING feature_id;
-    IF envelope IS NULL THEN
-        RAISE EXCEPTION 'scene "%" has no feature %', scene, feature_id
-            USING ERRCODE = 'no_data_found';
-    END IF;
-    -- Of a cell that may be out of date, nothing is known but how far one sees from it.
-    RETURN QUERY EXECUTE format($q$
-        SELECT c.box, NOT c.unproven OPERATOR(occlusion.@>) $1
-        FROM %1$I.view_cell_block AS b
-        JOIN %1$I.view_cell AS c ON %3$s
-        WHERE b.visible OPERATOR(occlusion.@>) $1 AND c.visible OPERATOR(occlusion.@>) $1
-          AND c.cluster = $3 AND %2$s
-        UNION ALL
-        SELECT c.box, false FROM %1$I.view_cell AS c
-        WHERE c.box OPERATOR(occlusion.&&) occlusion.expand($2, c.range)
-          AND (c.cluster <> $3 OR NOT (%2$s))
-    $q$, scene, occlusion.valid_cell_condition(scene), occlusion.cell_in_block_condition())
-    USING slot::bigint, envelope, occlusion.cluster_identity();
-END
-$$;
+LANGUAGE c STABLE STRICT PARALLEL SAFE ROWS 100 COST 10000
+AS 'MODULE_PATHNAME', 'visible_from_wrapper';
 COMMENT ON FUNCTION occlusion.visible_from(text, bigint) IS
     'boxes of the streets from somewhere in which a feature may be seen; proven: there is a witness that it can';
+
+CREATE FUNCTION occlusion.visible_from_area(scene text, feature_id bigint)
+RETURNS TABLE (area polygon[], proven boolean)
+LANGUAGE c STABLE STRICT PARALLEL SAFE ROWS 10 COST 20000
+AS 'MODULE_PATHNAME', 'visible_from_area_wrapper';
+COMMENT ON FUNCTION occlusion.visible_from_area(text, bigint) IS
+    'the plan of the boxes of visible_from as polygons, an outer ring and holes each: those in which every box is proven, and the others';
 
 CREATE FUNCTION occlusion.view_cells(scene text)
 RETURNS TABLE (cell bigint, box occlusion.box3d, range float8, visible bigint, proven bigint, share float8)
@@ -223,14 +206,15 @@ SET search_path = pg_catalog, pg_temp AS $$
 BEGIN
     PERFORM occlusion.require_all_cells(scene);
     RETURN QUERY EXECUTE format($q$
-        SELECT c.id, c.box, c.range, n.visible, n.visible - n.unproven,
+        SELECT c.id, c.box, b.range, n.visible, n.visible - n.unproven,
                (n.visible - n.unproven)::float8 / nullif(n.visible, 0)
-        FROM %1$I.view_cell AS c
+        FROM %1$I.view_cell_block AS b JOIN %1$I.view_cell AS c ON %3$s
         CROSS JOIN LATERAL (
             SELECT occlusion.cardinality(c.visible), occlusion.cardinality(c.unproven)
         ) AS n (visible, unproven)
-        WHERE c.cluster = $1 AND %2$s
-    $q$, scene, occlusion.valid_cell_condition(scene)) USING occlusion.cluster_identity();
+        WHERE b.cluster = $1 AND %2$s
+    $q$, scene, occlusion.valid_cells_condition(scene), occlusion.cell_in_block_condition())
+    USING occlusion.cluster_identity();
 END
 $$;
 COMMENT ON FUNCTION occlusion.view_cells(text) IS
@@ -260,7 +244,8 @@ BEGIN
     RETURN QUERY EXECUTE format($q$
         WITH cell AS (
             SELECT c.visible, occlusion.x(occlusion.size(c.box)) * occlusion.y(occlusion.size(c.box)) AS area
-            FROM %1$I.view_cell AS c WHERE c.cluster = $1 AND %2$s
+            FROM %1$I.view_cell_block AS b JOIN %1$I.view_cell AS c ON %3$s
+            WHERE b.cluster = $1 AND %2$s
         ), seen AS (
             SELECT s.slot, count(*) AS cells, sum(c.area) AS area
             FROM cell AS c CROSS JOIN LATERAL occlusion.unnest(c.visible) AS s (slot) GROUP BY s.slot
@@ -268,7 +253,8 @@ BEGIN
         SELECT f.id, f.class, s.cells, s.area / (SELECT sum(c.area) FROM cell AS c)
         FROM seen AS s JOIN %1$I.feature AS f ON f.slot = s.slot
         ORDER BY s.area DESC, f.id
-    $q$, scene, occlusion.valid_cell_condition(scene)) USING occlusion.cluster_identity();
+    $q$, scene, occlusion.valid_cells_condition(scene), occlusion.cell_in_block_condition())
+    USING occlusion.cluster_identity();
 END
 $$;
 COMMENT ON FUNCTION occlusion.landmarks(text) IS

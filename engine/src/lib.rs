@@ -60,7 +60,8 @@ pub use solid_column::SolidColumn;
 pub use statistics::BoxStatistics;
 pub use umbra::{OCCLUDER_MARGIN, Occluder, ShadowCaster};
 pub use view_cells::{
-    CellQuery, CellScene, CellSighting, CellSolver, CellTile, CoverOptions, ViewCell, Way, witness,
+    CellQuery, CellScene, CellSighting, CellSolver, CellTile, CoverOptions, ViewCell, Way,
+    plan_of_boxes, witness,
 };
 pub use view_region::{
     LocalGround, Site, Street, ViewRegion, ViewRegionOptions, covers_ground, footprint,

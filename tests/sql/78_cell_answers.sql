@@ -149,7 +149,7 @@ SELECT pg_temp.cell(), pg_temp.classes();
 ROLLBACK;
 SELECT pg_temp.cell() = line AS t FROM features;
 BEGIN;
-UPDATE regress_through.view_cell SET cluster = cluster + 1;
+UPDATE regress_through.view_cell_block SET cluster = cluster + 1;
 SELECT pg_temp.cell();
 ROLLBACK;
 

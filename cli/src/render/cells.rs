@@ -56,7 +56,7 @@ impl Render {
     /// The ranges of the view cells in words; fails where there are none.
     fn how_far(&self, client: &mut Client) -> Result<String, Failure> {
         let statement = format!(
-            "SELECT min(range), max(range) FROM {}.view_cell",
+            "SELECT min(range), max(range) FROM {}.view_cell_block WHERE box IS NOT NULL",
             quoted(&self.scene)
         );
         let row = client.query_one(&statement, &[])?;

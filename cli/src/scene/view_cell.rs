@@ -34,7 +34,7 @@ pub struct Witness {
 /// The view cells of a scene that are in use.
 pub fn view_cells(client: &mut impl GenericClient, scene: &str) -> Result<Vec<ViewCell>, Failure> {
     let statement = format!(
-        "SELECT c.id, c.box, c.range, occlusion.feature_ids($1, c.visible) \
+        "SELECT c.id, c.box, v.range, occlusion.feature_ids($1, c.visible) \
          FROM occlusion.view_cells($1) AS v JOIN {}.view_cell AS c ON c.id = v.cell ORDER BY c.id",
         quoted(scene)
     );

@@ -4,6 +4,7 @@
 //! the cell is hidden from all of it: one problem of a point ([`crate::PointSolver`]) for each cell. Where
 //! that leaves something open, the cell is divided.
 
+mod area;
 mod cover;
 mod crack;
 mod erosion;
@@ -13,6 +14,7 @@ mod simpler;
 mod solver;
 mod way;
 
+pub use area::plan_of_boxes;
 pub use cover::{CoverOptions, ViewCell};
 pub use proof::witness;
 pub use scene::{CellScene, CellTile};

@@ -7,15 +7,13 @@
 use super::job::Job;
 use super::procedure::Procedure;
 use super::workers::Workers;
-use super::{failed, given, quoted, read_one, run, streets};
+use super::{count, failed, given, quoted, read_one, run, streets};
 use crate::error::Refusal;
 use crate::settings;
 use crate::snapshot_read::{Moment, sees_the_latest};
 use crate::types::Box3d;
 use crate::visibility::{Around, Surroundings};
-use engine::{
-    CellQuery, CellSighting, CellSolver, CoverOptions, Street, ViewCell, ViewRegion, plan_key,
-};
+use engine::{CellQuery, CellSighting, CellSolver, CoverOptions, Street, ViewCell, ViewRegion};
 use geo::BoundingRect;
 use glam::DVec3;
 use pgrx::datum::DatumWithOid;
@@ -178,15 +176,6 @@ impl Blocks {
         }
     }
 
-    /// What is seen from all cells of a square b.
-    fn seen_from(&self) -> String {
-        format!(
-            "coalesce((SELECT occlusion.feature_set_union(c.visible) FROM {}.view_cell AS c \
-             WHERE {}), '{{}}')",
-            self.scene, self.lies_in
-        )
-    }
-
     /// Locks the table against others who begin, not against those at work; whether there is work left of the same kind.
     fn left(&self, asked: &Asked) -> bool {
         run(
@@ -222,35 +211,18 @@ impl Blocks {
             &[],
         );
         let squares = squares(streets, asked.block());
-        let column =
-            |pick: fn(&engine::Box3d) -> f64| -> Vec<f64> { squares.iter().map(pick).collect() };
-        let corners: [DatumWithOid; 4] = [
-            column(|square| square.min.x).into(),
-            column(|square| square.min.y).into(),
-            column(|square| square.max.x).into(),
-            column(|square| square.max.y).into(),
-        ];
-        let arguments: Vec<DatumWithOid> = asked.arguments().into_iter().chain(corners).collect();
+        let ids: Vec<i64> = squares.iter().map(|square| square.id).collect();
         run(
             &format!(
-                "DELETE FROM {0}.view_cell \
-                 WHERE NOT EXISTS (SELECT FROM {0}.view_cell_block WHERE {IS_ASKED})",
+                "DELETE FROM {}.view_cell_block \
+                 WHERE NOT ({IS_ASKED}) OR id OPERATOR(pg_catalog.<>) ALL ($5)",
                 self.scene
             ),
-            &asked.arguments(),
-        );
-        run(&format!("DELETE FROM {}.view_cell_block", self.scene), &[]);
-        run(
-            &format!(
-                "INSERT INTO {}.view_cell_block (id, area, range, smallest, largest, finest) \
-                 SELECT s.number, occlusion.box3d(occlusion.point3d(s.x0, s.y0, 0), \
-                                                  occlusion.point3d(s.x1, s.y1, 0)), $1, $2, $3, $4 \
-                 FROM ROWS FROM (pg_catalog.unnest($5), pg_catalog.unnest($6), \
-                                 pg_catalog.unnest($7), pg_catalog.unnest($8)) \
-                      WITH ORDINALITY AS s (x0, y0, x1, y1, number)",
-                self.scene
-            ),
-            &arguments,
+            &asked
+                .arguments()
+                .into_iter()
+                .chain([ids.clone().into()])
+                .collect::<Vec<_>>(),
         );
         run(
             &format!(
@@ -260,13 +232,31 @@ impl Blocks {
             ),
             &[],
         );
+        let column = |pick: fn(&engine::Box3d) -> f64| -> Vec<f64> {
+            squares.iter().map(|square| pick(&square.area)).collect()
+        };
+        let corners: [DatumWithOid; 4] = [
+            column(|square| square.min.x).into(),
+            column(|square| square.min.y).into(),
+            column(|square| square.max.x).into(),
+            column(|square| square.max.y).into(),
+        ];
+        let arguments = asked
+            .arguments()
+            .into_iter()
+            .chain([ids.into()])
+            .chain(corners);
         run(
             &format!(
-                "UPDATE {}.view_cell_block AS b SET visible = {}",
-                self.scene,
-                self.seen_from()
+                "INSERT INTO {}.view_cell_block AS b (id, area, range, smallest, largest, finest) \
+                 SELECT s.id, occlusion.box3d(occlusion.point3d(s.x0, s.y0, 0), \
+                                              occlusion.point3d(s.x1, s.y1, 0)), $1, $2, $3, $4 \
+                 FROM ROWS FROM (pg_catalog.unnest($5), pg_catalog.unnest($6), pg_catalog.unnest($7), \
+                                 pg_catalog.unnest($8), pg_catalog.unnest($9)) AS s (id, x0, y0, x1, y1) \
+                 ON CONFLICT (id) DO UPDATE SET done = false",
+                self.scene
             ),
-            &[],
+            &arguments.collect::<Vec<_>>(),
         );
         notice!("{} squares of {} m", squares.len(), asked.block());
         job.start(squares.len());
@@ -340,46 +330,37 @@ impl Blocks {
                 ids.iter().map(|id| slots.get(id).copied()).collect()
             };
             // A feature that was added since has no slot: of what sees it, nothing is known yet.
-            let Some(sets) = of(&cell.visible).zip(of(&cell.unproven)) else {
+            let Some((visible, unproven)) = of(&cell.visible).zip(of(&cell.unproven)) else {
                 continue;
             };
-            self.insert(&cell.bounds, &block.asked, sets, snapshot.as_deref());
+            run(
+                &format!(
+                    "INSERT INTO {}.view_cell (id, box, visible, unproven) \
+                     VALUES ($1, $2, $3::occlusion.feature_set, $4::occlusion.feature_set)",
+                    self.scene
+                ),
+                &[
+                    ((block.id << CELL_BITS) + count(made)).into(),
+                    Box3d(cell.bounds).into(),
+                    visible.into(),
+                    unproven.into(),
+                ],
+            );
             made += 1;
         }
         run(
             &format!(
-                "UPDATE {}.view_cell_block AS b SET done = true, visible = {} \
+                "UPDATE {0}.view_cell_block AS b \
+                 SET done = true, snapshot = $2::pg_catalog.pg_snapshot, cluster = occlusion.cluster_identity(), \
+                     (visible, box) = ( \
+                         SELECT coalesce(occlusion.feature_set_union(c.visible), '{{}}'), occlusion.extent(c.box) \
+                         FROM {0}.view_cell AS c WHERE {1}) \
                  WHERE id OPERATOR(pg_catalog.=) $1",
-                self.scene,
-                self.seen_from()
+                self.scene, self.lies_in
             ),
-            &[block.id.into()],
+            &[block.id.into(), snapshot.into()],
         );
         made
-    }
-
-    fn insert(
-        &self,
-        bounds: &engine::Box3d,
-        asked: &Asked,
-        (visible, unproven): (Vec<i64>, Vec<i64>),
-        snapshot: Option<&str>,
-    ) {
-        run(
-            &format!(
-                "INSERT INTO {}.view_cell (box, range, visible, unproven, snapshot, cluster) \
-                 VALUES ($1, $2, $3::occlusion.feature_set, $4::occlusion.feature_set, \
-                         $5::pg_catalog.pg_snapshot, occlusion.cluster_identity())",
-                self.scene
-            ),
-            &[
-                Box3d(*bounds).into(),
-                asked.range.into(),
-                visible.into(),
-                unproven.into(),
-                snapshot.into(),
-            ],
-        );
     }
 
     /// Ends the work if no square is left, and forgets the changes that all cells hold.
@@ -396,8 +377,8 @@ impl Blocks {
         run(
             &format!(
                 "DELETE FROM {0}.change WHERE transaction OPERATOR(pg_catalog.<) ( \
-                     SELECT pg_catalog.pg_snapshot_xmin(c.snapshot) FROM {0}.view_cell AS c \
-                     WHERE c.cluster OPERATOR(pg_catalog.=) occlusion.cluster_identity() \
+                     SELECT pg_catalog.pg_snapshot_xmin(b.snapshot) FROM {0}.view_cell_block AS b \
+                     WHERE b.cluster OPERATOR(pg_catalog.=) occlusion.cluster_identity() \
                      ORDER BY 1 LIMIT 1)",
                 self.scene
             ),
@@ -482,8 +463,20 @@ fn prove(
     })
 }
 
+/// Bits of the number that a cell has in its square.
+const CELL_BITS: u32 = 22;
+
+/// Squares of a grid on each side of its origin, in both directions.
+const REACH: i64 = 1 << 19;
+
+/// A square, and its number.
+struct Square {
+    id: i64,
+    area: engine::Box3d,
+}
+
 /// The squares of a grid on which streets are, along a curve through the plan.
-fn squares(streets: Vec<Street>, edge: f64) -> Vec<engine::Box3d> {
+fn squares(streets: Vec<Street>, edge: f64) -> Vec<Square> {
     let region = ViewRegion::new(streets);
     let mut places: HashSet<[i64; 2]> = HashSet::new();
     for street in region.streets() {
@@ -507,15 +500,41 @@ fn squares(streets: Vec<Street>, edge: f64) -> Vec<engine::Box3d> {
     }
     let square = |[x, y]: [i64; 2]| {
         let corner = |x: i64, y: i64| DVec3::new(x as f64, y as f64, 0.0) * edge;
-        engine::Box3d::new(corner(x, y), corner(x + 1, y + 1))
+        let area = engine::Box3d::new(corner(x, y), corner(x + 1, y + 1));
+        region.filled(&area)?;
+        Some(Square {
+            id: number([x, y]).unwrap_or_else(|| refuse_far(edge)),
+            area,
+        })
     };
-    let mut squares: Vec<engine::Box3d> = places
-        .into_iter()
-        .map(square)
-        .filter(|square| region.filled(square).is_some())
-        .collect();
-    squares.sort_by_key(|square| plan_key(square.center()));
+    let mut squares: Vec<Square> = places.into_iter().filter_map(square).collect();
+    squares.sort_by_key(|square| square.id);
     squares
+}
+
+/// The number of a square of a grid, the same whatever other squares there are: the bits of both positions in
+/// turn, so that neighbours have numbers near each other.
+fn number(place: [i64; 2]) -> Option<i64> {
+    let mut number = 0;
+    for (axis, at) in place.into_iter().enumerate() {
+        let at = Some(at + REACH).filter(|at| (0..2 * REACH).contains(at))?;
+        number |= (0..20)
+            .map(|bit| (at >> bit & 1) << (2 * bit + axis))
+            .sum::<i64>();
+    }
+    Some(number)
+}
+
+fn refuse_far(edge: f64) -> ! {
+    Refusal::new(
+        PgSqlErrorCode::ERRCODE_PROGRAM_LIMIT_EXCEEDED,
+        format!(
+            "streets lie more than {} m from the origin",
+            REACH as f64 * edge
+        ),
+    )
+    .hint("Import them with another origin.")
+    .raise()
 }
 
 /// The one value of a query.

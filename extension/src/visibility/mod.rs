@@ -9,6 +9,7 @@ mod line_of_sight;
 mod live;
 mod pack;
 mod packed_tile;
+mod seen_from;
 mod statements;
 mod stored_mesh;
 mod surfaces;

@@ -63,6 +63,12 @@ pub enum Ask {
     CellQuery,
     /// Ids of the features that are proven to be visible from it.
     Proven,
+    /// Envelope and slot of the feature with an id.
+    Sought,
+    /// Boxes of the right view cells in a cluster from which a slot may be seen, and whether that is proven.
+    SeenFrom,
+    /// Boxes of view cells within range of a box that may be out of date, or are of another cluster.
+    UnknownFrom,
     /// Id and envelope of the features with some slots.
     Slotted,
     /// Id and slot of some features.
@@ -84,6 +90,8 @@ impl Ask {
                     bottom::pg_catalog.float8, top::pg_catalog.float8, grounded::pg_catalog.bool \
              FROM {scene}.solid_column"
         );
+        let cells =
+            format!("{scene}.view_cell_block AS b JOIN {scene}.view_cell AS c ON {CELL_IN_BLOCK}");
         match self {
             Self::Tiles => format!(
                 "SELECT id::pg_catalog.int8, bounds::occlusion.box3d, version::pg_catalog.uuid \
@@ -124,10 +132,29 @@ impl Ask {
                  WHERE id OPERATOR(pg_catalog.=) ANY ($1)"
             ),
             Self::CellsNear => format!(
-                "SELECT c.box::occlusion.box3d, c.range::pg_catalog.float8, c.visible::occlusion.feature_set \
-                 FROM {scene}.view_cell AS c \
-                 WHERE c.box OPERATOR(occlusion.&&) $1 AND c.cluster OPERATOR(pg_catalog.=) $2 AND {}",
-                written("valid_cell_condition", name)
+                "SELECT c.box::occlusion.box3d, b.range::pg_catalog.float8, c.visible::occlusion.feature_set \
+                 FROM {cells} WHERE b.box OPERATOR(occlusion.&&) $1 AND c.box OPERATOR(occlusion.&&) $1 \
+                   AND b.cluster OPERATOR(pg_catalog.=) $2 AND {}",
+                valid_cells(name)
+            ),
+            Self::SeenFrom => format!(
+                "SELECT c.box::occlusion.box3d, NOT c.unproven OPERATOR(occlusion.@>) $1 FROM {cells} \
+                 WHERE b.visible OPERATOR(occlusion.@>) $1 AND c.visible OPERATOR(occlusion.@>) $1 \
+                   AND b.cluster OPERATOR(pg_catalog.=) $2 AND {}",
+                valid_cells(name)
+            ),
+            Self::UnknownFrom => format!(
+                "SELECT c.box::occlusion.box3d FROM {cells} \
+                 WHERE ((SELECT EXISTS (SELECT FROM {scene}.change)) OR (SELECT EXISTS ( \
+                           SELECT FROM {scene}.view_cell_block AS o WHERE o.cluster OPERATOR(pg_catalog.<) $2 \
+                               OR o.cluster OPERATOR(pg_catalog.>) $2))) \
+                   AND b.box OPERATOR(occlusion.&&) occlusion.expand($1, b.range) \
+                   AND (b.cluster OPERATOR(pg_catalog.<>) $2 OR NOT ({}))",
+                valid_cells(name)
+            ),
+            Self::Sought => format!(
+                "SELECT envelope::occlusion.box3d, slot::pg_catalog.int8 FROM {scene}.feature \
+                 WHERE id OPERATOR(pg_catalog.=) $1"
             ),
             Self::ColumnsNear => format!("{columns} WHERE envelope OPERATOR(occlusion.&&) $1"),
             Self::InnerEnvelopesNear => format!(
@@ -135,8 +162,10 @@ impl Ask {
                  WHERE box OPERATOR(occlusion.&&) $1"
             ),
             Self::CellQuery => format!(
-                "SELECT box::occlusion.box3d, range::pg_catalog.float8 FROM {scene}.view_cell \
-                 WHERE id OPERATOR(pg_catalog.=) $1"
+                "SELECT c.box::occlusion.box3d, b.range::pg_catalog.float8 FROM {scene}.view_cell AS c \
+                 JOIN {scene}.view_cell_block AS b \
+                   ON b.id OPERATOR(pg_catalog.=) (c.id OPERATOR(pg_catalog.>>) 22) \
+                 WHERE c.id OPERATOR(pg_catalog.=) $1"
             ),
             Self::Proven => format!(
                 "SELECT f.id::pg_catalog.int8 FROM {scene}.view_cell AS c \
@@ -156,7 +185,7 @@ impl Ask {
     fn parameters(self) -> Vec<Oid> {
         match self {
             Self::AnyTile => Vec::new(),
-            Self::Content | Self::CellQuery | Self::Proven => vec![pg_sys::INT8OID],
+            Self::Content | Self::CellQuery | Self::Proven | Self::Sought => vec![pg_sys::INT8OID],
             Self::FeaturesOf
             | Self::Columns
             | Self::InnerEnvelopes
@@ -164,6 +193,8 @@ impl Ask {
             | Self::Slots
             | Self::AllInnerEnvelopes => vec![pg_sys::INT8ARRAYOID],
             Self::Slotted => vec![pg_sys::INT4ARRAYOID],
+            Self::SeenFrom => vec![pg_sys::INT8OID, pg_sys::INT8OID],
+            Self::UnknownFrom => vec![Box3d::type_oid(), pg_sys::INT8OID],
             Self::EnvelopesNear => vec![Box3d::type_oid(), pg_sys::INT8ARRAYOID],
             Self::Tiles
             | Self::Edits
@@ -217,6 +248,15 @@ impl Statements {
             kept.for_each(Statement::free);
         }
     }
+}
+
+/// That a cell c is one of a square b: as `occlusion.cell_in_block_condition` has it.
+const CELL_IN_BLOCK: &str = "c.id OPERATOR(pg_catalog.>=) (b.id OPERATOR(pg_catalog.<<) 22) \
+    AND c.id OPERATOR(pg_catalog.<) ((b.id OPERATOR(pg_catalog.+) 1) OPERATOR(pg_catalog.<<) 22)";
+
+/// That the cells of a square b are right.
+fn valid_cells(scene: &str) -> String {
+    written("valid_cells_condition", scene)
 }
 
 /// What a function of `sql/` has for a scene.

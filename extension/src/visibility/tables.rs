@@ -61,7 +61,7 @@ const READ: [(&CStr, Columns); 6] = [
 ];
 
 /// Those of packed tiles and view cells, which a scene made by an older version lacks.
-const DERIVED: [(&CStr, Columns); 4] = [
+const DERIVED: [(&CStr, Columns); 5] = [
     (
         c"tile",
         &[
@@ -77,13 +77,7 @@ const DERIVED: [(&CStr, Columns); 4] = [
     ),
     (
         c"view_cell",
-        &[
-            (c"id", Some(pg_sys::INT8OID)),
-            (c"box", None),
-            (c"range", Some(pg_sys::FLOAT8OID)),
-            (c"snapshot", Some(pg_sys::PG_SNAPSHOTOID)),
-            (c"cluster", Some(pg_sys::INT8OID)),
-        ],
+        &[(c"id", Some(pg_sys::INT8OID)), (c"box", None)],
     ),
     (
         c"change",
@@ -91,6 +85,16 @@ const DERIVED: [(&CStr, Columns); 4] = [
             (c"feature", Some(pg_sys::INT8OID)),
             (c"place", None),
             (c"transaction", Some(pg_sys::XID8OID)),
+        ],
+    ),
+    (
+        c"view_cell_block",
+        &[
+            (c"id", Some(pg_sys::INT8OID)),
+            (c"range", Some(pg_sys::FLOAT8OID)),
+            (c"box", None),
+            (c"snapshot", Some(pg_sys::PG_SNAPSHOTOID)),
+            (c"cluster", Some(pg_sys::INT8OID)),
         ],
     ),
 ];
@@ -106,6 +110,7 @@ pub struct Tables {
     edit: Oid,
     view_cell: Oid,
     change: Oid,
+    view_cell_block: Oid,
 }
 
 impl Tables {
@@ -145,6 +150,7 @@ impl Tables {
             edit: derived[1]?,
             view_cell: derived[2]?,
             change: derived[3]?,
+            view_cell_block: derived[4]?,
         })
     }
 
@@ -160,18 +166,29 @@ impl Tables {
 
     /// Whether the scene has the tables of view cells at all.
     pub fn can_have_cells(&self) -> bool {
-        self.view_cell != pg_sys::InvalidOid && self.change != pg_sys::InvalidOid
+        self.cells()
+            .into_iter()
+            .all(|oid| oid != pg_sys::InvalidOid)
     }
 
     /// Whether there may be view cells that may be relied on: every change is logged, and no row security
     /// keeps features, cells or changes from the current user.
     pub fn has_cells(&self) -> bool {
-        let sources = SOURCES.into_iter().chain([c"street"]);
-        let read = sources.map(|name| relation(self.namespace, name));
         self.can_have_cells()
             && has_pages(self.view_cell)
             && self.are_changes_logged()
-            && read.chain([self.view_cell, self.change]).all(sees_all_rows)
+            && self.shows_all_of_cells()
+    }
+
+    /// Whether no row security keeps view cells, or what they rest on, from the current user.
+    pub fn shows_all_of_cells(&self) -> bool {
+        let sources = SOURCES.into_iter().chain([c"street"]);
+        let read = sources.map(|name| relation(self.namespace, name));
+        read.chain(self.cells()).all(sees_all_rows)
+    }
+
+    fn cells(&self) -> [Oid; 3] {
+        [self.view_cell, self.view_cell_block, self.change]
     }
 
     /// Whether all that view cells rest on is written to the log of changes.
@@ -198,8 +215,8 @@ impl Tables {
     /// Whether the current user may read view cells and all that they and tiles rest on.
     pub fn may_read_cells(&self) -> bool {
         let street = relation(self.namespace, c"street");
-        let tables = [street, self.view_cell, self.change];
-        self.may_read_all() && tables.into_iter().all(|oid| may(oid, pg_sys::ACL_SELECT))
+        let mut tables = self.cells().into_iter().chain([street]);
+        self.may_read_all() && tables.all(|oid| may(oid, pg_sys::ACL_SELECT))
     }
 
     /// Whether the current user may replace tiles.

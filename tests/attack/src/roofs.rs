@@ -19,6 +19,10 @@ const POINTS: usize = 6;
 /// Walls on each side of an intricate block: more than most roofs have edges.
 const WALLS: usize = 6;
 
+/// Share of the way to its middle by which such a block is drawn in: not more than the millimetre within which
+/// what is beside an eye hides nothing.
+const DRAWN_IN: f64 = 1e-4;
+
 /// A house: what is seen of it, and a block in it.
 #[derive(Clone, Debug)]
 struct House {
@@ -263,7 +267,7 @@ impl House {
             return corners.map(place).to_vec();
         }
         let middle = corners[0].midpoint(corners[2]);
-        let drawn_in = corners.map(|corner| corner.lerp(middle, 0.01));
+        let drawn_in = corners.map(|corner| corner.lerp(middle, DRAWN_IN));
         let of_a_side = |at: usize| {
             let [from, to] = [drawn_in[at], drawn_in[(at + 1) % 4]];
             (0..WALLS).map(move |step| place(from.lerp(to, step as f64 / WALLS as f64)))
@@ -429,6 +433,7 @@ fn field(rng: &mut Rng, width: f64, depth: f64, put: Put) -> House {
     House {
         mesh: TriangleMesh::from_triangles(triangles),
         block: Some(rectangle([0.0; 2], [width, depth], top, put)),
+        is_intricate: false,
     }
 }
 

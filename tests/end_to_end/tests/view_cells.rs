@@ -23,7 +23,8 @@ fn call(scene: &str) -> String {
 }
 
 /// All cells, as they would be in any order of work.
-const CELLS: &str = "SELECT string_agg((box, range, visible::text)::text, ' ' ORDER BY box::text) FROM {s}.view_cell";
+const CELLS: &str =
+    "SELECT string_agg((box, visible::text)::text, ' ' ORDER BY box::text) FROM {s}.view_cell";
 
 /// Squares that are done.
 const DONE: &str = "SELECT count(*) FROM {s}.view_cell_block WHERE done";
@@ -71,10 +72,13 @@ fn a_square_that_another_session_has_in_hand_is_left_to_it() {
     scene.run(&call(&scene.name));
     let all = scene.number(DONE);
     // As if a session had been killed before it came to two of the squares.
-    scene.run("UPDATE {s}.view_cell_block SET done = false WHERE id IN (2, 3)");
+    scene.run(
+        "UPDATE {s}.view_cell_block SET done = false
+         WHERE id IN (SELECT id FROM {s}.view_cell_block ORDER BY id LIMIT 2)",
+    );
     let mut other = client();
     let lock = format!(
-        "BEGIN; SELECT FROM {}.view_cell_block WHERE id = 2 FOR UPDATE",
+        "BEGIN; SELECT FROM {0}.view_cell_block WHERE id = (SELECT min(id) FROM {0}.view_cell_block) FOR UPDATE",
         scene.name
     );
     other.batch_execute(&lock).expect("it is locked");
@@ -122,12 +126,15 @@ fn cancelled_work_keeps_what_it_has_and_goes_on_there() {
         ),
         1
     );
-    scene.run("CREATE TEMP TABLE before AS SELECT id FROM {s}.view_cell");
+    scene.run("CREATE TEMP TABLE before AS SELECT id, xmin::text AS made FROM {s}.view_cell");
     scene.run(&call);
     assert_eq!(scene.number(LEFT), 0);
     // Nothing was made again, or lost.
     assert_eq!(
-        scene.number("SELECT count(*) FROM before WHERE id NOT IN (SELECT id FROM {s}.view_cell)"),
+        scene.number(
+            "SELECT count(*) FROM before
+             WHERE (id, made) NOT IN (SELECT id, xmin::text FROM {s}.view_cell)"
+        ),
         0
     );
     let resumed = text(&mut scene, CELLS);
@@ -189,8 +196,9 @@ fn an_edit_that_is_packed_while_a_square_is_begun_is_not_overlooked() {
     // What is in use is what comes out when all is computed from the tables as they are now.
     scene.run(&format!(
         "DO $$ BEGIN
-             EXECUTE 'CREATE TEMP TABLE in_use AS SELECT c.box, c.visible FROM {{s}}.view_cell AS c WHERE '
-                 || occlusion.valid_cell_condition('{name}');
+             EXECUTE 'CREATE TEMP TABLE in_use AS SELECT c.box, c.visible
+                      FROM {{s}}.view_cell_block AS b JOIN {{s}}.view_cell AS c ON '
+                 || occlusion.cell_in_block_condition() || ' WHERE ' || occlusion.valid_cells_condition('{name}');
          END $$"
     ));
     let in_use = scene.number("SELECT count(*) FROM in_use");

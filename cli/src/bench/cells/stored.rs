@@ -37,7 +37,9 @@ impl Stored {
         if !client.query_one(known, &[&table])?.get::<_, bool>(0) {
             return Ok(None);
         }
-        let statement = format!("SELECT count(*), min(range) FROM {table}");
+        let statement = format!(
+            "SELECT (SELECT count(*) FROM {table}), min(range) FROM {schema}.view_cell_block WHERE box IS NOT NULL"
+        );
         let row = client.query_one(&statement, &[])?;
         let range: Option<f64> = row.get(1);
         Ok(range.map(|range| Self {

@@ -311,8 +311,9 @@ fn view_cells_are_measured_as_computed_and_as_stored() {
     );
     for relation in [
         "view_cell",
-        "view_cell_box",
+        "view_cell_pkey",
         "view_cell_block",
+        "view_cell_block_box",
         "view_cell_block_visible",
         "visible_cell",
         "visible_feature",

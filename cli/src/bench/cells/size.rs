@@ -16,9 +16,9 @@ pub fn compare(client: &mut Client, scene: &str) -> Result<Table, Failure> {
     client.batch_execute(&format!(
         "{drop}; CREATE SCHEMA {SCHEMA};
          CREATE TABLE {plain} AS
-         SELECT c.id::integer AS cell, s.slot::integer AS feature
-         FROM {schema}.view_cell AS c CROSS JOIN LATERAL occlusion.unnest(c.visible) AS s (slot)
-         ORDER BY 1, 2;
+         SELECT c.cell, s.slot::integer AS feature
+         FROM (SELECT row_number() OVER (ORDER BY id)::integer AS cell, visible FROM {schema}.view_cell) AS c
+         CROSS JOIN LATERAL occlusion.unnest(c.visible) AS s (slot) ORDER BY 1, 2;
          CREATE INDEX visible_cell ON {plain} (cell);
          CREATE INDEX visible_feature ON {plain} (feature)"
     ))?;

@@ -91,7 +91,7 @@ fn a_surface_with_too_many_edges_has_none() {
     let peak =
         |x: i32, y: i32| DVec3::new(f64::from(x), f64::from(y), f64::from(x * x + y * y) * -0.1);
     let mut faces = Vec::new();
-    for (x, y) in (0..20).flat_map(|x| (0..20).map(move |y| (x, y))) {
+    for (x, y) in (0..40).flat_map(|x| (0..40).map(move |y| (x, y))) {
         faces.push([peak(x, y), peak(x + 1, y), peak(x + 1, y + 1)]);
         faces.push([peak(x, y), peak(x + 1, y + 1), peak(x, y + 1)]);
     }

@@ -111,8 +111,8 @@ mod tests {
             };
             let star = Polygon::new(ring(1.0), vec![ring(0.5)]).orient(Direction::Default);
             let cut = simpler(&star, most);
-            prop_assert!(cut.difference(&star).unsigned_area() < 1e-6);
-            prop_assert!(cut.unsigned_area() <= star.unsigned_area());
+            prop_assert!(cut.difference(&star).unsigned_area() < 1e-5);
+            prop_assert!(cut.unsigned_area() < star.unsigned_area() + 1e-5);
         }
     }
 }

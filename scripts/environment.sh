@@ -26,10 +26,9 @@ unset PGHOST PGHOSTADDR PGPORT PGUSER PGDATABASE PGPASSWORD PGPASSFILE PGSERVICE
 # In CI the versions are those that were committed, or the build fails.
 cargo_flags=(${CI:+--locked})
 
-# The two halves of the workspace, as arguments of cargo: what knows no PostgreSQL, and the
-# extension, whose features depend on the server (find_server sets it).
-pure=(--release "${cargo_flags[@]}" --workspace --exclude pg_occlusion)
-extension=()
+# The workspace, as arguments of cargo: always all of it, since cargo compiles a crate once for each choice of
+# features that its neighbours make. Those of the extension depend on the server (find_server sets it).
+workspace=()
 
 release=$CARGO_TARGET_DIR/release
 occlusion=$release/occlusion
@@ -41,7 +40,7 @@ fail() {
     exit 1
 }
 
-# Sets pg_config, pg_major, bin_dir, stage and extension, and tells pgrx about the server.
+# Sets pg_config, pg_major, bin_dir, stage and workspace, and tells pgrx about the server.
 find_server() {
     local wanted=${PG_CONFIG:-/usr/lib/postgresql/15/bin/pg_config} version
     pg_config=$(command -v "$wanted") || fail "no pg_config at \"$wanted\": run scripts/setup or set PG_CONFIG"
@@ -53,7 +52,7 @@ find_server() {
     esac
     bin_dir=$("$pg_config" --bindir)
     stage=$CARGO_TARGET_DIR/stage/pg$pg_major
-    extension=(--release "${cargo_flags[@]}" -p pg_occlusion --no-default-features --features "pg$pg_major")
+    workspace=(--release "${cargo_flags[@]}" --workspace --no-default-features --features "pg_occlusion/pg$pg_major")
     export PGRX_PG_CONFIG_PATH=$pg_config
 }
 

@@ -86,11 +86,12 @@ COMMENT ON PROCEDURE occlusion.generate_view_cells(text, float8, float8, float8,
 -- Whether the view cells of a square b are right under the snapshot of the query: no edit that the query sees
 -- and the cells do not is near them. Edits without a place are looked through, and not the features nearby,
 -- which are many more as a rule. It is only asked where the cluster is the one whose transactions the square names.
+-- Without edits nothing is looked up; and the planner makes no joins of it, which would ask for each cell again.
 CREATE FUNCTION occlusion.valid_cells_condition(scene text) RETURNS text
 LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
 SET search_path = pg_catalog, pg_temp AS $$
     SELECT format($q$
-        NOT EXISTS (
+        ((SELECT NOT EXISTS (SELECT FROM %1$I.change)) OR NOT EXISTS (
             SELECT FROM %1$I.change AS e
             WHERE e.place OPERATOR(occlusion.&&) occlusion.expand(b.box, b.range)
               AND (e.feature IS NOT NULL OR e.place OPERATOR(occlusion.&&) b.box)
@@ -100,7 +101,7 @@ SET search_path = pg_catalog, pg_temp AS $$
             WHERE e.place IS NULL AND NOT pg_catalog.pg_visible_in_snapshot(e.transaction, b.snapshot)
               AND (SELECT f.envelope FROM %1$I.feature AS f WHERE f.id OPERATOR(pg_catalog.=) e.feature)
                       OPERATOR(occlusion.&&) occlusion.expand(b.box, b.range)
-        )
+        ))
     $q$, scene)
 $$;
 COMMENT ON FUNCTION occlusion.valid_cells_condition(text) IS
@@ -118,7 +119,8 @@ $$;
 COMMENT ON FUNCTION occlusion.cell_in_block_condition() IS 'the condition that a view cell, c, is one of a square, b';
 
 -- The cells that hold an eye, $1, in a cluster, $2, and are right; none where the eye is not in the view
--- region, or within a millimetre of a solid.
+-- region, or within a millimetre of a solid. No index is to answer for the cluster: nearly all squares are of one,
+-- and without statistics the planner takes them for few.
 CREATE FUNCTION occlusion.view_cell_statement(scene text) RETURNS text
 LANGUAGE sql STABLE STRICT PARALLEL SAFE
 SET search_path = pg_catalog, pg_temp AS $$
@@ -127,7 +129,7 @@ SET search_path = pg_catalog, pg_temp AS $$
                c.id::pg_catalog.int8, b.snapshot::pg_catalog.pg_snapshot
         FROM %1$I.view_cell_block AS b JOIN %1$I.view_cell AS c ON %4$s
         WHERE b.box OPERATOR(occlusion.@>) $1 AND c.box OPERATOR(occlusion.@>) $1
-          AND b.cluster OPERATOR(pg_catalog.=) $2 AND %2$s AND (SELECT %3$s)
+          AND (b.cluster OPERATOR(pg_catalog.=) $2) IS TRUE AND %2$s AND (SELECT %3$s)
         LIMIT 1
     $q$, scene, occlusion.valid_cells_condition(scene), occlusion.is_eye_condition(scene),
          occlusion.cell_in_block_condition())

@@ -14,6 +14,9 @@ const HEIGHT_BITS: u32 = 16;
 /// Cells of the curve in plan in a metre: it reaches 1,048 km either way, heights 4 km.
 const PLAN_CELLS_PER_METRE: f64 = 8.0;
 
+/// Bits of both coordinates of a square of a grid in plan.
+const SQUARE_BITS: u32 = 20;
+
 /// The position of a point on Hilbert's curve through space, 126 bits.
 #[must_use]
 pub fn hilbert_key(point: DVec3) -> u128 {
@@ -27,12 +30,26 @@ pub fn hilbert_key(point: DVec3) -> u128 {
 #[must_use]
 pub fn plan_key(point: DVec3) -> u64 {
     let [x, y, z] = (point * PLAN_CELLS_PER_METRE).to_array();
-    let [x, y] = transposed::<2, PLAN_BITS>([x, y].map(cell::<PLAN_BITS>));
-    let bits = (0..PLAN_BITS).rev();
-    let plan = bits.fold(0, |plan, bit| {
-        plan << 2 | (x >> bit & 1) << 1 | y >> bit & 1
-    });
+    let plan = along_plane::<PLAN_BITS>([x, y].map(cell::<PLAN_BITS>));
     plan << HEIGHT_BITS | cell::<HEIGHT_BITS>(z)
+}
+
+/// The position of a square of a grid on Hilbert's curve through the plane, 40 bits; `None` beyond 524,288
+/// squares from the origin.
+#[must_use]
+pub fn square_key(place: [i64; 2]) -> Option<u64> {
+    let half = 1 << (SQUARE_BITS - 1);
+    let is_near = place.iter().all(|at| (-half..half).contains(at));
+    is_near.then(|| along_plane::<SQUARE_BITS>(place.map(|at| (at + half).cast_unsigned())))
+}
+
+/// The position of a cell on Hilbert's curve through the plane.
+fn along_plane<const B: u32>(cells: [u64; 2]) -> u64 {
+    let [x, y] = transposed::<2, B>(cells);
+    let bits = (0..B).rev();
+    bits.fold(0, |plan, bit| {
+        plan << 2 | (x >> bit & 1) << 1 | y >> bit & 1
+    })
 }
 
 /// The position of a cell on Hilbert's curve through `N` dimensions, of which each coordinate has `B`
@@ -153,6 +170,18 @@ mod tests {
         check(hilbert_key, CELLS_PER_METRE, BITS, [16; 3]);
         let in_plan = |point| u128::from(plan_key(point) >> HEIGHT_BITS);
         check(in_plan, PLAN_CELLS_PER_METRE, PLAN_BITS, [64, 64, 1]);
+        let of_squares = |point: DVec3| {
+            let place = [point.x, point.y].map(|at| at.floor() as i64);
+            u128::from(square_key(place).expect("it is in reach"))
+        };
+        check(of_squares, 1.0, SQUARE_BITS, [64, 64, 1]);
+    }
+
+    #[test]
+    fn squares_out_of_reach_have_no_position() {
+        let half = 1 << (SQUARE_BITS - 1);
+        assert!(square_key([-half, half - 1]).is_some());
+        assert_eq!([[half, 0], [0, -half - 1]].map(square_key), [None; 2]);
     }
 
     #[test]

@@ -42,7 +42,7 @@ pub use feature_set::{FeatureSet, MOST_IN_SET, MalformedSet, OversizedSet, SetCo
 pub use field_of_view::{
     Camera, DepthRange, Frustum, MatrixDefect, PlanWedge, ViewCone, ViewSector, in_range,
 };
-pub use hilbert::{hilbert_key, plan_key};
+pub use hilbert::{hilbert_key, plan_key, square_key};
 pub use line_of_sight::{Share, SightLine};
 pub use mesh::{
     Closedness, Extrusion, GROUND_TOLERANCE, InnerEnvelope, MeshDefect, PolygonDefect,

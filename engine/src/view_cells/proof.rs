@@ -27,6 +27,9 @@ const FROM_WITHIN: Effort = Effort {
 /// Parts of a cell from whose middles one looks have half edges no shorter than this, metres.
 const LEAST: f64 = 0.25;
 
+/// How often a cell is divided for them, at the most: there are 1,365 of them then.
+const MOST_DIVISIONS: u32 = 5;
+
 /// How much one looks for a feature: see [`Sought`].
 #[derive(Clone, Copy)]
 struct Effort {
@@ -68,6 +71,9 @@ impl CellSolver {
         for eye in grid(&query.bounds).filter(|eye| is_eye(*eye)) {
             if cancelled() {
                 return None;
+            }
+            if open.is_empty() {
+                break;
             }
             let sifting = Sifting {
                 eye,
@@ -161,24 +167,26 @@ fn grid(cell: &Box3d) -> impl Iterator<Item = DVec3> + use<> {
 /// The middle of the part of a cell, or of its parts and so on, in which a place is.
 fn near(cell: &Box3d, place: DVec3) -> DVec3 {
     let mut cell = *cell;
-    while let Some(part) = divided(&cell).find(|part| part.contains_point(place)) {
-        cell = part;
+    for division in 0..MOST_DIVISIONS {
+        if let Some(part) = divided(&cell, division).find(|part| part.contains_point(place)) {
+            cell = part;
+        }
     }
     top(&cell)
 }
 
 /// The middles of a cell, of its parts, and so on: all that [`near`] may be.
 fn middles(cell: &Box3d) -> impl Iterator<Item = DVec3> + use<> {
-    let mut open = VecDeque::from([*cell]);
+    let mut open = VecDeque::from([(*cell, 0)]);
     std::iter::from_fn(move || {
-        let cell = open.pop_front()?;
-        open.extend(divided(&cell));
+        let (cell, divisions) = open.pop_front()?;
+        open.extend(divided(&cell, divisions).map(|part| (part, divisions + 1)));
         Some(top(&cell))
     })
 }
 
-/// The parts of a cell, unless they are too small.
-fn divided(cell: &Box3d) -> impl Iterator<Item = Box3d> + use<> {
-    let is_large = half(cell) >= 2.0 * LEAST;
+/// The parts of what is left of a cell after some divisions, unless they are too small.
+fn divided(cell: &Box3d, divisions: u32) -> impl Iterator<Item = Box3d> + use<> {
+    let is_large = half(cell) >= 2.0 * LEAST && divisions < MOST_DIVISIONS;
     parts(cell).filter(move |_| is_large)
 }

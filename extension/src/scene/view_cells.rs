@@ -12,8 +12,10 @@ use crate::error::Refusal;
 use crate::settings;
 use crate::snapshot_read::{Moment, sees_the_latest};
 use crate::types::Box3d;
-use crate::visibility::{Around, Surroundings};
-use engine::{CellQuery, CellSighting, CellSolver, CoverOptions, Street, ViewCell, ViewRegion};
+use crate::visibility::{Around, CELL_BITS, Surroundings};
+use engine::{
+    CellQuery, CellSighting, CellSolver, CoverOptions, Street, ViewCell, ViewRegion, square_key,
+};
 use geo::BoundingRect;
 use glam::DVec3;
 use pgrx::datum::DatumWithOid;
@@ -463,12 +465,6 @@ fn prove(
     })
 }
 
-/// Bits of the number that a cell has in its square.
-const CELL_BITS: u32 = 22;
-
-/// Squares of a grid on each side of its origin, in both directions.
-const REACH: i64 = 1 << 19;
-
 /// A square, and its number.
 struct Square {
     id: i64,
@@ -503,7 +499,7 @@ fn squares(streets: Vec<Street>, edge: f64) -> Vec<Square> {
         let area = engine::Box3d::new(corner(x, y), corner(x + 1, y + 1));
         region.filled(&area)?;
         Some(Square {
-            id: number([x, y]).unwrap_or_else(|| refuse_far(edge)),
+            id: square_key([x, y]).map_or_else(|| refuse_far(), u64::cast_signed),
             area,
         })
     };
@@ -512,28 +508,13 @@ fn squares(streets: Vec<Street>, edge: f64) -> Vec<Square> {
     squares
 }
 
-/// The number of a square of a grid, the same whatever other squares there are: the bits of both positions in
-/// turn, so that neighbours have numbers near each other.
-fn number(place: [i64; 2]) -> Option<i64> {
-    let mut number = 0;
-    for (axis, at) in place.into_iter().enumerate() {
-        let at = Some(at + REACH).filter(|at| (0..2 * REACH).contains(at))?;
-        number |= (0..20)
-            .map(|bit| (at >> bit & 1) << (2 * bit + axis))
-            .sum::<i64>();
-    }
-    Some(number)
-}
-
-fn refuse_far(edge: f64) -> ! {
+fn refuse_far() -> ! {
     Refusal::new(
         PgSqlErrorCode::ERRCODE_PROGRAM_LIMIT_EXCEEDED,
-        format!(
-            "streets lie more than {} m from the origin",
-            REACH as f64 * edge
-        ),
+        "streets are too far from the origin for view cells",
     )
-    .hint("Import them with another origin.")
+    .detail("View cells reach half a million squares of theirs in each direction.")
+    .hint("Larger cells make larger squares: largest => 64.")
     .raise()
 }
 

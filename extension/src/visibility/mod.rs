@@ -21,6 +21,7 @@ mod view_cells;
 mod witnesses;
 
 pub use pack::pack_if_possible;
+pub use statements::CELL_BITS;
 pub use surroundings::{Around, Surroundings};
 
 use crate::field_of_view::FieldOfView;

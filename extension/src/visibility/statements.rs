@@ -27,7 +27,7 @@ pub struct Statements {
 /// What can be asked.
 #[derive(Clone, Copy)]
 pub enum Ask {
-    /// Id, bounds and version of the tiles that meet a box.
+    /// Id, bounds, version and content of the tiles that meet a box.
     Tiles,
     /// Whether there is any tile.
     AnyTile,
@@ -90,12 +90,10 @@ impl Ask {
                     bottom::pg_catalog.float8, top::pg_catalog.float8, grounded::pg_catalog.bool \
              FROM {scene}.solid_column"
         );
-        let cells =
-            format!("{scene}.view_cell_block AS b JOIN {scene}.view_cell AS c ON {CELL_IN_BLOCK}");
         match self {
             Self::Tiles => format!(
-                "SELECT id::pg_catalog.int8, bounds::occlusion.box3d, version::pg_catalog.uuid \
-                 FROM {scene}.tile WHERE bounds OPERATOR(occlusion.&&) $1"
+                "SELECT id::pg_catalog.int8, bounds::occlusion.box3d, version::pg_catalog.uuid, \
+                        content::pg_catalog.bytea FROM {scene}.tile WHERE bounds OPERATOR(occlusion.&&) $1"
             ),
             Self::AnyTile => format!("SELECT 1 FROM {scene}.tile LIMIT 1"),
             Self::Content => format!(
@@ -133,23 +131,26 @@ impl Ask {
             ),
             Self::CellsNear => format!(
                 "SELECT c.box::occlusion.box3d, b.range::pg_catalog.float8, c.visible::occlusion.feature_set \
-                 FROM {cells} WHERE b.box OPERATOR(occlusion.&&) $1 AND c.box OPERATOR(occlusion.&&) $1 \
-                   AND b.cluster OPERATOR(pg_catalog.=) $2 AND {}",
+                 FROM {} WHERE b.box OPERATOR(occlusion.&&) $1 AND c.box OPERATOR(occlusion.&&) $1 \
+                   AND {OF_CLUSTER} AND {}",
+                cells(name),
                 valid_cells(name)
             ),
             Self::SeenFrom => format!(
-                "SELECT c.box::occlusion.box3d, NOT c.unproven OPERATOR(occlusion.@>) $1 FROM {cells} \
+                "SELECT c.box::occlusion.box3d, NOT c.unproven OPERATOR(occlusion.@>) $1 FROM {} \
                  WHERE b.visible OPERATOR(occlusion.@>) $1 AND c.visible OPERATOR(occlusion.@>) $1 \
-                   AND b.cluster OPERATOR(pg_catalog.=) $2 AND {}",
+                   AND {OF_CLUSTER} AND {}",
+                cells(name),
                 valid_cells(name)
             ),
             Self::UnknownFrom => format!(
-                "SELECT c.box::occlusion.box3d FROM {cells} \
+                "SELECT c.box::occlusion.box3d FROM {} \
                  WHERE ((SELECT EXISTS (SELECT FROM {scene}.change)) OR (SELECT EXISTS ( \
                            SELECT FROM {scene}.view_cell_block AS o WHERE o.cluster OPERATOR(pg_catalog.<) $2 \
                                OR o.cluster OPERATOR(pg_catalog.>) $2))) \
                    AND b.box OPERATOR(occlusion.&&) occlusion.expand($1, b.range) \
                    AND (b.cluster OPERATOR(pg_catalog.<>) $2 OR NOT ({}))",
+                cells(name),
                 valid_cells(name)
             ),
             Self::Sought => format!(
@@ -164,7 +165,7 @@ impl Ask {
             Self::CellQuery => format!(
                 "SELECT c.box::occlusion.box3d, b.range::pg_catalog.float8 FROM {scene}.view_cell AS c \
                  JOIN {scene}.view_cell_block AS b \
-                   ON b.id OPERATOR(pg_catalog.=) (c.id OPERATOR(pg_catalog.>>) 22) \
+                   ON b.id OPERATOR(pg_catalog.=) (c.id OPERATOR(pg_catalog.>>) {CELL_BITS}) \
                  WHERE c.id OPERATOR(pg_catalog.=) $1"
             ),
             Self::Proven => format!(
@@ -250,9 +251,21 @@ impl Statements {
     }
 }
 
-/// That a cell c is one of a square b: as `occlusion.cell_in_block_condition` has it.
-const CELL_IN_BLOCK: &str = "c.id OPERATOR(pg_catalog.>=) (b.id OPERATOR(pg_catalog.<<) 22) \
-    AND c.id OPERATOR(pg_catalog.<) ((b.id OPERATOR(pg_catalog.+) 1) OPERATOR(pg_catalog.<<) 22)";
+/// Bits of the number that a view cell has in its square; the others are the square's, as
+/// `occlusion.cell_in_block_condition` has it.
+pub const CELL_BITS: u32 = 22;
+
+/// That a square b is of a cluster, the second argument. It is a question that no index answers: nearly all
+/// squares are, and without statistics the planner takes them for few.
+const OF_CLUSTER: &str = "(b.cluster OPERATOR(pg_catalog.=) $2) IS TRUE";
+
+/// View cells c with their squares b.
+fn cells(scene: &str) -> String {
+    let lies_in = read_one::<String>("SELECT occlusion.cell_in_block_condition()", &[]);
+    let lies_in = lies_in.unwrap_or_else(|| unreachable!("a condition is text"));
+    let scene = quoted(scene);
+    format!("{scene}.view_cell_block AS b JOIN {scene}.view_cell AS c ON {lies_in}")
+}
 
 /// That the cells of a square b are right.
 fn valid_cells(scene: &str) -> String {

@@ -10,7 +10,7 @@ use crate::snapshot_read::{Moment, argument};
 use crate::types::{Box3d, Point3d};
 use engine::{CellQuery, ViewRegion, witness};
 use pgrx::iter::TableIterator;
-use pgrx::{PgSqlErrorCode, name, pg_extern};
+use pgrx::{PgSqlErrorCode, check_for_interrupts, name, pg_extern};
 
 /// For each feature that is proven to be visible from a cell an eye in the cell, and the end of a line from
 /// there that crosses the surface of the feature and meets no other; null where none is found any more.
@@ -45,6 +45,7 @@ fn witnesses(
     let region = ViewRegion::new(near_streets(scene, Moment::Query, &query.bounds));
     let is_eye = |eye| region.touches(&engine::Box3d::new(eye, eye)) && !around.holds(eye);
     let rows = proven.into_iter().map(|feature| {
+        check_for_interrupts!();
         let found = witness(&surfaces, &query, feature, &is_eye);
         let ends = found.map(|found| (Point3d(found.eye), Point3d(found.end)));
         let (eye, target) = ends.unzip();

@@ -12,6 +12,7 @@ mod planner;
 mod scene;
 mod settings;
 mod snapshot_read;
+mod toasted;
 mod types;
 mod visibility;
 

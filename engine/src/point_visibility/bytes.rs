@@ -6,20 +6,20 @@ use std::ops::Range;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
-use super::tile::{Column, Feature, Tile};
+use super::tile::{Column, Feature, Tile, positions};
 use super::tree::{FANOUT, Node, Tree};
 use crate::Box3d;
 
 /// First number of the form; another form gets another one.
-const FORM: u32 = 1;
+const FORM: u32 = 2;
 
 /// Bytes of a node, a feature, a column, a ring, a corner, and an edge and a corner of a roof.
 const NODE: usize = 6 * 8 + 2 * 4;
-const FEATURE: usize = 8 + 6 * 8 + 8 * 4;
+const FEATURE: usize = 8 + 6 * 8 + 9 * 4;
 const COLUMN: usize = 2 * 8 + 2 * 4;
 const RING: usize = 2 * 4;
 const CORNER: usize = 2 * 8 + 1;
-const RIDGE: usize = 2 * 4;
+const RIDGE: usize = 2 * 2;
 const PEAK: usize = 3 * 8;
 
 /// Bytes that are no tile.
@@ -56,7 +56,7 @@ impl Tile {
         for node in &self.tree.nodes {
             bytes.bounds(&node.bounds);
             bytes.number(node.first);
-            bytes.number(node.count);
+            bytes.number(u32::from(node.count) << 1 | u32::from(node.is_leaf));
         }
         for feature in &self.features {
             bytes.0.extend(feature.id.to_le_bytes());
@@ -64,7 +64,8 @@ impl Tile {
             bytes.range(&feature.outline);
             bytes.range(&feature.columns);
             bytes.range(&feature.ridges);
-            bytes.range(&feature.crests);
+            bytes.number(feature.crests);
+            bytes.range(&feature.peaks);
         }
         for column in &self.columns {
             bytes.real(column.bottom);
@@ -78,9 +79,8 @@ impl Tile {
             bytes.real(corner.x);
             bytes.real(corner.y);
         }
-        for &[from, to] in &self.ridges {
-            bytes.number(from);
-            bytes.number(to);
+        for end in self.ridges.as_flattened() {
+            bytes.0.extend(end.to_le_bytes());
         }
         for peak in &self.peaks {
             bytes.point(*peak);
@@ -140,19 +140,21 @@ impl Tile {
             within(&feature.outline, corners, "outlines")?;
             within(&feature.columns, self.columns.len(), "columns")?;
             within(&feature.ridges, self.ridges.len(), "roofs")?;
-            let are_first = feature.crests.start == feature.ridges.start
-                && (feature.crests.start..=feature.ridges.end).contains(&feature.crests.end);
-            in_order(are_first, "roofs")?;
+            within(&feature.peaks, self.peaks.len(), "corners of roofs")?;
+            let ridges = self.ridges(feature);
+            in_order(feature.crests as usize <= ridges.len(), "roofs")?;
+            let peaks = feature.peaks.len();
+            let are_its = ridges
+                .as_flattened()
+                .iter()
+                .all(|&end| usize::from(end) < peaks);
+            in_order(are_its, "roofs")?;
         }
         for column in &self.columns {
             within(&column.rings, self.rings.len(), "rings")?;
         }
         for ring in &self.rings {
             within(ring, corners, "corners")?;
-        }
-        let peaks = self.peaks.len();
-        for &end in self.ridges.as_flattened() {
-            within(&(end..end), peaks.saturating_sub(1), "corners of roofs")?;
         }
         let is_column = |column: &Column| column.top.is_finite() && column.bottom < f64::INFINITY;
         let are_finite = self.columns.iter().all(is_column)
@@ -168,23 +170,26 @@ impl Tile {
         let mut has_leaf = vec![false; self.features.len()];
         for node in nodes {
             in_order(is_box(&node.bounds), "boxes")?;
-            let first = node.first as usize;
-            if node.count == 0 {
-                let feature = self.features.get(first);
-                let feature = feature.ok_or(MalformedTile::Range("leaves"))?;
-                in_order(node.bounds == feature.envelope, "leaves")?;
-                in_order(!std::mem::replace(&mut has_leaf[first], true), "leaves")?;
-                continue;
-            }
-            // Children lie in the order of their parents, so that no node has two of them.
-            let count = node.count as usize;
-            in_order(first == children && count <= FANOUT, "nodes")?;
-            children += count;
-            let below = nodes.get(first..children);
-            let below = below.ok_or(MalformedTile::Range("nodes"))?;
-            let holds = below
-                .iter()
-                .all(|child| node.bounds.contains(&child.bounds));
+            let count = usize::from(node.count);
+            in_order((1..=FANOUT).contains(&count), "nodes")?;
+            let below = positions(&node.children());
+            let holds = if node.is_leaf {
+                let features = self.features.get(below.clone());
+                let features = features.ok_or(MalformedTile::Range("leaves"))?;
+                let is_taken = has_leaf[below]
+                    .iter_mut()
+                    .any(|has| std::mem::replace(has, true));
+                in_order(!is_taken, "leaves")?;
+                let mut boxes = features.iter().map(|feature| &feature.envelope);
+                boxes.all(|bounds| is_box(bounds) && node.bounds.contains(bounds))
+            } else {
+                // Nodes lie in the order of those that hold them, so that none is in two.
+                in_order(below.start == children, "nodes")?;
+                children = below.end;
+                let nodes = nodes.get(below).ok_or(MalformedTile::Range("nodes"))?;
+                let mut boxes = nodes.iter().map(|node| &node.bounds);
+                boxes.all(|bounds| node.bounds.contains(bounds))
+            };
             in_order(holds, "boxes")?;
         }
         let is_whole = nodes.is_empty() || children == nodes.len();
@@ -267,7 +272,7 @@ impl Reader<'_> {
             rings: (0..rings).map(|_| self.range()).collect(),
             corners: (0..corners).map(|_| self.corner()).collect(),
             ridges: (0..ridges)
-                .map(|_| [self.number(), self.number()])
+                .map(|_| [self.array(), self.array()].map(u16::from_le_bytes))
                 .collect(),
             peaks: (0..peaks).map(|_| self.point()).collect(),
             buried: self.0.iter().map(|&byte| byte != 0).collect(),
@@ -275,10 +280,14 @@ impl Reader<'_> {
     }
 
     fn node(&mut self) -> Node {
+        let bounds = self.bounds();
+        let (first, children) = (self.number(), self.number());
         Node {
-            bounds: self.bounds(),
-            first: self.number(),
-            count: self.number(),
+            bounds,
+            first,
+            // Too many are refused later.
+            count: u16::try_from(children >> 1).unwrap_or(u16::MAX),
+            is_leaf: children & 1 == 1,
         }
     }
 
@@ -289,7 +298,8 @@ impl Reader<'_> {
             outline: self.range(),
             columns: self.range(),
             ridges: self.range(),
-            crests: self.range(),
+            crests: self.number(),
+            peaks: self.range(),
         }
     }
 

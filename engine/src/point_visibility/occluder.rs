@@ -37,9 +37,9 @@ pub enum Measure {
 pub struct WallFinder {
     edges: Vec<(Edge, Facing)>,
     /// Ends of the edges of a roof: positions of their corners, clockwise one first, and their heights.
-    ends: Vec<[(u32, f64); 2]>,
+    ends: Vec<[(u16, f64); 2]>,
     /// Corners of a roof from which an edge goes on clockwise, and anticlockwise.
-    sides: [Vec<u32>; 2],
+    sides: [Vec<u16>; 2],
 }
 
 impl WallFinder {
@@ -100,8 +100,8 @@ impl WallFinder {
         self.edges.clear();
         self.ends.clear();
         self.sides.iter_mut().for_each(Vec::clear);
-        for ridge in &tile.ridges[positions(&feature.crests)] {
-            let [from, to] = ridge.map(|end| tile.peaks[end as usize] - eye);
+        for &ridge in tile.crests(feature) {
+            let [from, to] = tile.ends(feature, ridge).map(|end| end - eye);
             let edge = Edge::new(from.truncate(), to.truncate());
             let lowered = |z: f64| z - z.abs() * SLOPE_MARGIN;
             let ends = [(ridge[0], lowered(from.z)), (ridge[1], lowered(to.z))];
@@ -120,7 +120,7 @@ impl WallFinder {
             if !adds(edge, first.1.max(last.1)) {
                 continue;
             }
-            let corner = |side: &Vec<u32>, end: u32| match side.binary_search(&end) {
+            let corner = |side: &Vec<u16>, end: u16| match side.binary_search(&end) {
                 Ok(_) => Corner::Drawn,
                 Err(_) => Corner::End,
             };

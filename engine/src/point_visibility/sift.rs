@@ -187,7 +187,9 @@ impl<K: Fn(Spot) -> bool, F: FnMut(Spot, Box3d)> Walker for Sifter<'_, K, F> {
     }
 
     fn leave(&mut self, solver: &mut PointSolver, tile: usize, position: usize) {
-        if let Some(search) = &mut self.search {
+        if tile < self.sifting.first_hiding
+            && let Some(search) = &mut self.search
+        {
             let spot = Spot {
                 tile,
                 feature: position,

@@ -11,7 +11,7 @@ use super::horizon::Horizon;
 use super::occluder::{Measure, Wall, WallFinder};
 use super::projection::{Edge, Span, chebyshev};
 use super::target::{edge_slopes, outline_slopes};
-use super::tile::{Tile, TileFeature, positions};
+use super::tile::{Feature, Tile, TileFeature, positions};
 use super::{EYE_MARGIN, SHALLOW, SLOPE_MARGIN};
 use crate::{Box3d, PlanWedge, in_range};
 
@@ -167,8 +167,12 @@ impl PointSolver {
                 What::Node(at) => at,
                 What::Feature(position) => {
                     let tile = source.tile(visit.tile)?;
-                    let envelope = &tile.features[position].envelope;
-                    if !walker.skips(self, query.eye, envelope) {
+                    let feature = &tile.features[position];
+                    let (id, envelope) = (feature.id, feature.envelope);
+                    if !walker.skips(self, query.eye, &envelope)
+                        && !source.is_outdated(visit.tile, id)
+                    {
+                        let tile = source.tile(visit.tile)?;
                         walker.meet(self, query, visit.tile, tile, position);
                     }
                     walker.leave(self, visit.tile, position);
@@ -180,18 +184,16 @@ impl PointSolver {
             if walker.skips(self, query.eye, &node.bounds) {
                 continue;
             }
-            for child in node.first..node.first + node.count {
-                let bounds = &tile.tree.nodes[child as usize].bounds;
+            for child in node.children() {
+                let (what, bounds) = match node.is_leaf {
+                    true => (
+                        What::Feature(child as usize),
+                        &tile.features[child as usize].envelope,
+                    ),
+                    false => (What::Node(child), &tile.tree.nodes[child as usize].bounds),
+                };
                 if walker.wants(query, bounds) {
-                    self.open(query.eye, visit.tile, What::Node(child), bounds);
-                }
-            }
-            if node.count == 0 {
-                let position = node.first as usize;
-                let feature = tile.features[position].id;
-                if !source.is_outdated(visit.tile, feature) {
-                    let tile = source.tile(visit.tile)?;
-                    walker.meet(self, query, visit.tile, tile, position);
+                    self.open(query.eye, visit.tile, what, bounds);
                 }
             }
         }
@@ -258,8 +260,7 @@ impl PointSolver {
         let outline = &tile.corners[positions(&feature.outline)];
         let is_beside = depth(query.eye, &feature.envelope) > EYE_MARGIN;
         if query.prisms && is_beside {
-            let ridges = &tile.ridges[positions(&feature.ridges)];
-            let is_hidden = match (ridges, outline) {
+            let is_hidden = match (tile.ridges(feature), outline) {
                 ([], []) => false,
                 ([], _) => {
                     let eye = query.eye.truncate();
@@ -272,7 +273,7 @@ impl PointSolver {
                 // Its roof is below its prism.
                 _ => {
                     let horizon = self.horizon_for(query.eye, &feature.envelope);
-                    is_roof_below(horizon, query.eye, tile, ridges)
+                    is_roof_below(horizon, query.eye, tile, feature)
                 }
             };
             if is_hidden {
@@ -330,9 +331,9 @@ pub(super) fn is_below(horizon: &Horizon, corners: &[DVec2], top: f64) -> bool {
 }
 
 /// Whether all edges of a roof are below a horizon. The eye is beside what it is the roof of.
-fn is_roof_below(horizon: &Horizon, eye: DVec3, tile: &Tile, ridges: &[[u32; 2]]) -> bool {
-    ridges.iter().all(|ridge| {
-        let [from, to] = ridge.map(|end| tile.peaks[end as usize] - eye);
+fn is_roof_below(horizon: &Horizon, eye: DVec3, tile: &Tile, feature: &Feature) -> bool {
+    tile.ridges(feature).iter().all(|&ridge| {
+        let [from, to] = tile.ends(feature, ridge).map(|end| end - eye);
         edge_slopes(from, to, |line| while_hidden(horizon, line)).is_continue()
     })
 }
@@ -391,7 +392,7 @@ pub(super) trait Walker {
         solver.hides_box(eye, bounds)
     }
 
-    /// A feature that was among those to visit: it was met, or passed by.
+    /// A feature that was visited: it was met, or passed by.
     fn leave(&mut self, _solver: &mut PointSolver, _tile: usize, _position: usize) {}
 
     /// A feature that is not passed by.
@@ -440,7 +441,7 @@ pub(super) enum What {
     Tile,
     /// A node of its tree.
     Node(u32),
-    /// A feature, whatever node holds it.
+    /// A feature.
     Feature(usize),
 }
 

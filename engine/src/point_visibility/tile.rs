@@ -42,12 +42,13 @@ pub struct Tile {
     pub(super) features: Vec<Feature>,
     pub(super) columns: Vec<Column>,
     pub(super) rings: Vec<Range<u32>>,
-    /// Corners of rings and outlines.
+    /// Corners of rings, and of outlines that are no ring.
     pub(super) corners: Vec<DVec2>,
     /// Of each corner, whether the edge that it begins lies in the feature's own solid.
     pub(super) buried: Vec<bool>,
-    /// Edges of roofs: two positions in `peaks` each.
-    pub(super) ridges: Vec<[u32; 2]>,
+    /// Edges of roofs: two positions each among the peaks of the feature.
+    pub(super) ridges: Vec<[u16; 2]>,
+    /// Corners of roofs.
     pub(super) peaks: Vec<DVec3>,
 }
 
@@ -60,15 +61,16 @@ pub struct Feature {
     pub columns: Range<u32>,
     /// Edges of its roof; none where nothing more than the prism is known.
     pub ridges: Range<u32>,
-    /// The first of these: those that hide, as a solid is below them. All, if they hide instead of the
+    /// How many of these, the first, hide, as a solid is below them. All, if they hide instead of the
     /// columns; otherwise those well above the columns beside them.
-    pub crests: Range<u32>,
+    pub crests: u32,
+    pub peaks: Range<u32>,
 }
 
 impl Feature {
     /// Whether its roof hides all that its columns do, from beside it.
     pub fn hides_by_roof(&self) -> bool {
-        !self.crests.is_empty() && self.crests == self.ridges
+        self.crests > 0 && self.crests == self.ridges.end - self.ridges.start
     }
 }
 
@@ -139,6 +141,21 @@ impl Tile {
         (feature.id, feature.envelope)
     }
 
+    /// The edges of the roof of a feature.
+    pub(super) fn ridges(&self, feature: &Feature) -> &[[u16; 2]] {
+        &self.ridges[positions(&feature.ridges)]
+    }
+
+    /// Those of them that hide.
+    pub(super) fn crests(&self, feature: &Feature) -> &[[u16; 2]] {
+        &self.ridges(feature)[..feature.crests as usize]
+    }
+
+    /// The ends of an edge of the roof of a feature.
+    pub(super) fn ends(&self, feature: &Feature, ridge: [u16; 2]) -> [DVec3; 2] {
+        ridge.map(|end| self.peaks[feature.peaks.start as usize + usize::from(end)])
+    }
+
     /// Whether a column or its margin holds an eye: it hides nothing from there.
     pub(crate) fn holds(&self, eye: DVec3) -> bool {
         let plan = |bounds: &Box3d| {
@@ -151,13 +168,16 @@ impl Tile {
             if !plan(&node.bounds) {
                 continue;
             }
-            open.extend(node.first..node.first + node.count);
-            if node.count == 0 {
-                let feature = &self.features[node.first as usize];
-                let mut columns = self.columns[positions(&feature.columns)].iter();
-                if columns.any(|column| holds(self, column, eye)) {
-                    return true;
-                }
+            if !node.is_leaf {
+                open.extend(node.children());
+                continue;
+            }
+            let features = self.features[positions(&node.children())].iter();
+            let mut columns = features
+                .filter(|feature| plan(&feature.envelope))
+                .flat_map(|feature| &self.columns[positions(&feature.columns)]);
+            if columns.any(|column| holds(self, column, eye)) {
+                return true;
             }
         }
         false
@@ -216,7 +236,6 @@ impl Tile {
         // A polygon that turned clockwise would be hidden by what only its far side is below.
         let prism = OuterPrism::around(feature.outline.iter().map(|corner| corner.extend(0.0)));
         let hull = prism.map_or(Vec::new(), |prism| prism.hull);
-        let outline = self.add_corners(hull.into_iter().map(|corner| (corner, false)));
         let hiding: Vec<&SolidColumn> = feature
             .columns
             .iter()
@@ -228,43 +247,49 @@ impl Tile {
         let has_all = grounded.clone().count() == feature.columns.len() && !hiding.is_empty();
         let may_hide = feature.roof.as_ref().filter(|roof| has_all && roof.hides);
         let walls = Walls::of(grounded);
-        let first = index(self.columns.len());
+        let (first, first_ring) = (index(self.columns.len()), self.rings.len());
         for column in &hiding {
             self.add_column(column, &walls);
         }
+        let outline = self.add_outline(&hull, first_ring);
         let walls = self.wall_count(first);
         let crests = may_hide.map_or(Vec::new(), |roof| match 3 * roof.edges.len() <= 2 * walls {
             true => roof.edges.clone(),
             false => crests(roof, &hiding),
         });
-        let [crests, ridges] = self.add_roof(feature.roof.as_ref(), &crests);
+        let first_of_roof = [index(self.ridges.len()), index(self.peaks.len())];
+        if let Some(roof) = &feature.roof {
+            self.add_roof(roof, &crests);
+        }
         self.features.push(Feature {
             id: feature.id,
             envelope: feature.envelope,
             outline,
             columns: first..index(self.columns.len()),
-            ridges,
-            crests,
+            ridges: first_of_roof[0]..index(self.ridges.len()),
+            crests: index(crests.len()),
+            peaks: first_of_roof[1]..index(self.peaks.len()),
         });
     }
 
     /// Adds a feature of another tile.
     fn copy(&mut self, tile: &Self, position: usize) {
         let feature = &tile.features[position];
-        let outline = self.copy_corners(tile, &feature.outline);
-        let first = index(self.columns.len());
+        let (first, first_ring) = (index(self.columns.len()), self.rings.len());
         for column in &tile.columns[positions(&feature.columns)] {
             self.copy_column(tile, column);
         }
-        let columns = first..index(self.columns.len());
-        let ridges = self.copy_ridges(tile, &feature.ridges);
+        let outline: Vec<DVec2> = tile.corners[positions(&feature.outline)].to_vec();
+        let outline = self.add_outline(&outline, first_ring);
+        let first_of_roof = [index(self.ridges.len()), index(self.peaks.len())];
+        self.ridges.extend(tile.ridges(feature));
+        self.peaks.extend(&tile.peaks[positions(&feature.peaks)]);
         self.features.push(Feature {
-            id: feature.id,
-            envelope: feature.envelope,
             outline,
-            columns,
-            crests: ridges.start..ridges.start + index(feature.crests.len()),
-            ridges,
+            columns: first..index(self.columns.len()),
+            ridges: first_of_roof[0]..index(self.ridges.len()),
+            peaks: first_of_roof[1]..index(self.peaks.len()),
+            ..*feature
         });
     }
 
@@ -286,19 +311,6 @@ impl Tile {
         self.add_corners(tile.corners[range].iter().copied().zip(buried))
     }
 
-    /// Adds edges of another tile's roofs with all peaks from the first to the last of them.
-    fn copy_ridges(&mut self, tile: &Self, range: &Range<u32>) -> Range<u32> {
-        let ridges = &tile.ridges[positions(range)];
-        let (first, base) = (index(self.ridges.len()), index(self.peaks.len()));
-        let ends = ridges.as_flattened();
-        if let Some((&low, &high)) = ends.iter().min().zip(ends.iter().max()) {
-            self.peaks.extend(&tile.peaks[low as usize..=high as usize]);
-            let placed = ridges.iter().map(|edge| edge.map(|end| base + (end - low)));
-            self.ridges.extend(placed);
-        }
-        first..index(self.ridges.len())
-    }
-
     /// How many edges of columns from a position on may hide something.
     fn wall_count(&self, first: u32) -> usize {
         let columns = &self.columns[first as usize..];
@@ -309,18 +321,13 @@ impl Tile {
         buried.filter(|&&is_buried| !is_buried).count()
     }
 
-    /// Adds the edges of a roof, the crests among them first, and returns where both are.
-    fn add_roof(&mut self, roof: Option<&Roof>, crests: &[[u32; 2]]) -> [Range<u32>; 2] {
-        let (first, base) = (index(self.ridges.len()), index(self.peaks.len()));
-        if let Some(roof) = roof {
-            self.peaks.extend(&roof.corners);
-            let others = roof.edges.iter().filter(|edge| !crests.contains(edge));
-            let ridges = crests.iter().chain(others);
-            let placed = ridges.map(|edge| edge.map(|end| base + end));
-            self.ridges.extend(placed);
-        }
-        let crests = first..first + index(crests.len());
-        [crests, first..index(self.ridges.len())]
+    /// Adds the edges of a roof, the crests among them first.
+    fn add_roof(&mut self, roof: &Roof, crests: &[[u32; 2]]) {
+        self.peaks.extend(&roof.corners);
+        let others = roof.edges.iter().filter(|edge| !crests.contains(edge));
+        let place = |end: u32| u16::try_from(end).expect("a roof has few corners");
+        let ridges = crests.iter().chain(others);
+        self.ridges.extend(ridges.map(|edge| edge.map(place)));
     }
 
     fn add_column(&mut self, column: &SolidColumn, walls: &Walls) {
@@ -344,6 +351,16 @@ impl Tile {
             top: column.top,
             rings: first..index(self.rings.len()),
         });
+    }
+
+    /// Adds the outline of a feature, whose rings are there from a position on; where it is one of these, it
+    /// takes no room.
+    fn add_outline(&mut self, outline: &[DVec2], first_ring: usize) -> Range<u32> {
+        let is_it = |ring: &&Range<u32>| is_rotated(&self.corners[positions(ring)], outline);
+        match self.rings[first_ring..].iter().find(is_it) {
+            Some(ring) => ring.clone(),
+            None => self.add_corners(outline.iter().map(|&corner| (corner, false))),
+        }
     }
 
     fn add_corners(&mut self, corners: impl Iterator<Item = (DVec2, bool)>) -> Range<u32> {
@@ -415,6 +432,19 @@ fn corners(ring: &LineString<f64>) -> Vec<DVec2> {
         corners.pop();
     }
     corners
+}
+
+/// Whether two rings are the same from some corner of one on.
+fn is_rotated(ring: &[DVec2], other: &[DVec2]) -> bool {
+    let Some(first) = other.first().filter(|_| ring.len() == other.len()) else {
+        return false;
+    };
+    ring.iter()
+        .position(|corner| corner == first)
+        .is_some_and(|at| {
+            let (end, start) = ring.split_at(at);
+            start.iter().chain(end).eq(other)
+        })
 }
 
 /// Whether a column lies in its feature's envelope. One that does not is no part of the feature, and

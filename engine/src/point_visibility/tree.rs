@@ -5,31 +5,39 @@ use std::ops::Range;
 
 use crate::Box3d;
 
-/// Children of a node.
+/// Children of a node, at the most.
 pub const FANOUT: usize = 4;
 
-/// Boxes in a tree whose nodes hold up to four others.
+/// Boxes in a tree.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
     /// The root first; children of one node are neighbours.
     pub nodes: Vec<Node>,
 }
 
-/// A node, or a leaf with one box.
+/// A box around other nodes, or around some of the boxes.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
     pub bounds: Box3d,
-    /// First child; of a leaf, the position of its box.
+    /// The first of its nodes or boxes.
     pub first: u32,
-    /// Number of children; 0 for a leaf.
-    pub count: u32,
+    pub count: u16,
+    /// Whether it holds boxes, and not nodes.
+    pub is_leaf: bool,
+}
+
+impl Node {
+    /// The positions of its nodes or boxes.
+    pub fn children(&self) -> Range<u32> {
+        self.first..self.first.saturating_add(u32::from(self.count))
+    }
 }
 
 impl Tree {
     /// The tree over some boxes, and the order in which its leaves hold them.
     pub fn new(boxes: &[Box3d]) -> (Self, Vec<usize>) {
         let mut order: Vec<usize> = (0..boxes.len()).collect();
-        let mut nodes = Vec::with_capacity(boxes.len() * 3 / 2);
+        let mut nodes = Vec::with_capacity(boxes.len() / 2);
         let mut open = VecDeque::new();
         if !boxes.is_empty() {
             nodes.push(empty());
@@ -37,17 +45,20 @@ impl Tree {
         }
         while let Some((at, range)) = open.pop_front() {
             let bounds = around(boxes, &order[range.clone()]);
-            let groups = if range.len() > 1 {
-                groups(boxes, &mut order, range.clone())
-            } else {
-                Vec::new()
+            let is_leaf = range.len() <= FANOUT;
+            let groups = match is_leaf {
+                true => Vec::new(),
+                false => groups(boxes, &mut order, range.clone()),
             };
-            let leaf = groups.is_empty();
+            let (first, count) = match is_leaf {
+                true => (range.start, range.len()),
+                false => (nodes.len(), groups.len()),
+            };
             nodes[at] = Node {
                 bounds,
-                first: u32::try_from(if leaf { range.start } else { nodes.len() })
-                    .expect("a tile holds fewer than 4 billion features"),
-                count: u32::try_from(groups.len()).unwrap_or(0),
+                first: u32::try_from(first).expect("a tile holds fewer than 4 billion features"),
+                count: u16::try_from(count).expect("a node holds few"),
+                is_leaf,
             };
             for group in groups {
                 open.push_back((nodes.len(), group));
@@ -67,6 +78,7 @@ fn empty() -> Node {
         bounds: Box3d::new(glam::DVec3::ZERO, glam::DVec3::ZERO),
         first: 0,
         count: 0,
+        is_leaf: true,
     }
 }
 
@@ -78,7 +90,7 @@ fn around(boxes: &[Box3d], order: &[usize]) -> Box3d {
         .expect("a node holds a box")
 }
 
-/// A range of the order in up to four groups: halves of halves, each across the longer way in plan.
+/// A range of the order, longer than a leaf, in four groups: halves of halves, each across the longer way in plan.
 fn groups(boxes: &[Box3d], order: &mut [usize], range: Range<usize>) -> Vec<Range<usize>> {
     let mut groups = vec![range];
     while groups.len() < FANOUT {

@@ -22,7 +22,7 @@ use std::sync::Arc;
 const CORNER: usize = 32;
 
 /// Bytes that a triangle of a surface takes, with its share of the tree.
-const TRIANGLE: usize = 192;
+const TRIANGLE: usize = 112;
 
 /// What is around some cells.
 pub struct Around {

@@ -9,10 +9,11 @@ use super::tables::Tables as SceneTables;
 use crate::error::Refusal;
 use crate::settings;
 use crate::snapshot_read::{Moment, argument};
+use crate::toasted::Toasted;
 use crate::types::{Box3d, Point3d};
 use engine::{Sighting, Tile, TileSource};
 use glam::DVec3;
-use pgrx::{PgSqlErrorCode, Uuid, check_for_interrupts};
+use pgrx::{Uuid, check_for_interrupts};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
@@ -23,7 +24,7 @@ pub struct Tiles {
     statements: Rc<Statements>,
     bounds: Vec<engine::Box3d>,
     /// As `bounds`, but for what was read from the tables of the scene, which comes last.
-    packed: Vec<(i64, Version)>,
+    packed: Vec<(Version, Toasted)>,
     tiles: Vec<Option<Rc<PackedTile>>>,
     edited: HashSet<i64>,
     /// Tiles that were found in the cache.
@@ -91,9 +92,9 @@ impl Tiles {
         let tiles = statements.get(Ask::Tiles);
         tiles.read(Moment::Query, &argument(Box3d(*bounds)), |row| {
             let version = row.get::<Uuid>(3).map(|uuid| *uuid.as_bytes());
-            let head = row.get::<i64>(1).zip(version);
-            if let Some((head, bounds)) = head.zip(row.get::<Box3d>(2)) {
-                self.packed.push(head);
+            let packed = version.zip(Toasted::of(row, 4));
+            if let Some((packed, bounds)) = packed.zip(row.get::<Box3d>(2)) {
+                self.packed.push(packed);
                 self.bounds.push(bounds.0);
             }
         });
@@ -160,24 +161,13 @@ impl Tiles {
     }
 
     fn load(&mut self, position: usize) -> Result<Rc<PackedTile>, Refusal> {
-        let (id, version) = self.packed[position];
-        let key = Key::Packed(version);
+        let (version, content) = &self.packed[position];
+        let key = Key::Packed(*version);
         if let Some(tile) = cache::find(&key) {
             self.cached += 1;
             return Ok(tile);
         }
-        let mut read = None;
-        let content = self.statements.get(Ask::Content);
-        content.read(Moment::Query, &argument(id), |row| {
-            read = row.get::<&[u8]>(1).map(PackedTile::from_bytes);
-        });
-        let missing = || {
-            Refusal::new(
-                PgSqlErrorCode::ERRCODE_DATA_CORRUPTED,
-                format!("content of tile {id} is missing"),
-            )
-        };
-        let tile = Rc::new(read.ok_or_else(missing)??);
+        let tile = Rc::new(content.read(PackedTile::from_bytes)?);
         cache::keep(key, &tile);
         Ok(tile)
     }

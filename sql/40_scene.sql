@@ -70,6 +70,7 @@ SET search_path = pg_catalog, pg_temp AS $$
         ('view_cell_block', 'cluster', 'bigint'),
         ('change', 'feature', 'bigint'),
         ('change', 'place', 'occlusion.box3d'),
+        ('change', 'slot', 'integer'),
         ('change', 'transaction', 'xid8')
 $$;
 COMMENT ON FUNCTION occlusion.scene_columns() IS 'the tables of a scene and the columns that functions read';

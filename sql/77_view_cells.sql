@@ -53,6 +53,7 @@ BEGIN
         CREATE TABLE %1$I.change (
             feature bigint,
             place occlusion.box3d,
+            slot integer,
             transaction xid8 NOT NULL DEFAULT pg_current_xact_id()
         );
         ALTER TABLE %1$I.change REPLICA IDENTITY FULL;
@@ -62,6 +63,7 @@ BEGIN
         COMMENT ON TABLE %1$I.change IS 'log: what was edited since view cells are computed; derived';
         COMMENT ON COLUMN %1$I.change.feature IS 'feature that was edited; NULL: a street';
         COMMENT ON COLUMN %1$I.change.place IS 'box around it before or after; NULL: wherever the feature is';
+        COMMENT ON COLUMN %1$I.change.slot IS 'slot of a feature that was deleted: nothing is concerned but cells that see it; NULL: all within range';
         COMMENT ON COLUMN %1$I.change.transaction IS 'which transaction did it';
 
         CREATE TRIGGER log_edit_after AFTER INSERT OR UPDATE OR DELETE ON %1$I.street
@@ -83,9 +85,15 @@ LANGUAGE c AS 'MODULE_PATHNAME', 'generate_view_cells_wrapper';
 COMMENT ON PROCEDURE occlusion.generate_view_cells(text, float8, float8, float8, float8) IS
     'computes what can be seen from every part of the streets; goes on where it was interrupted, and shares the work with other sessions that call it; range: how far eyes see, smallest and largest: edges of cells, finest: half edge of the smallest parts of a cell that are told apart, all in metres';
 
+CREATE PROCEDURE occlusion.refresh(scene text)
+LANGUAGE c AS 'MODULE_PATHNAME', 'refresh_wrapper';
+COMMENT ON PROCEDURE occlusion.refresh(text) IS
+    'brings tiles and view cells up to date with the edits since they were computed: computes only what these concern';
+
 -- Whether the view cells of a square b are right under the snapshot of the query: no edit that the query sees
--- and the cells do not is near them. Edits without a place are looked through, and not the features nearby,
--- which are many more as a rule. It is only asked where the cluster is the one whose transactions the square names.
+-- and the cells do not is near them. What is not seen from a cell is not missed when it is deleted. Edits without
+-- a place are looked through, and not the features nearby, which are many more as a rule. It is only asked where
+-- the cluster is the one whose transactions the square names.
 -- Without edits nothing is looked up; and the planner makes no joins of it, which would ask for each cell again.
 CREATE FUNCTION occlusion.valid_cells_condition(scene text) RETURNS text
 LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
@@ -95,6 +103,7 @@ SET search_path = pg_catalog, pg_temp AS $$
             SELECT FROM %1$I.change AS e
             WHERE e.place OPERATOR(occlusion.&&) occlusion.expand(b.box, b.range)
               AND (e.feature IS NOT NULL OR e.place OPERATOR(occlusion.&&) b.box)
+              AND (e.slot IS NULL OR b.visible OPERATOR(occlusion.@>) e.slot::pg_catalog.int8)
               AND NOT pg_catalog.pg_visible_in_snapshot(e.transaction, b.snapshot)
         ) AND NOT EXISTS (
             SELECT FROM %1$I.change AS e

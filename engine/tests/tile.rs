@@ -86,6 +86,50 @@ fn a_tile_survives_as_bytes() {
 }
 
 #[test]
+fn coordinates_come_back_as_they_were_however_they_are_written() {
+    // Millimetres in the frame of Delft, binary fractions, and what is neither.
+    let millimetres = |at: f64| ((85_000.0 + at) * 1000.0).round() / 1000.0;
+    let ways: [(&dyn Fn(f64) -> f64, bool); 3] = [
+        (&millimetres, true),
+        (&|at: f64| (at * 1024.0).round() / 1024.0 - 447_000.0, true),
+        (&|at: f64| at * std::f64::consts::PI, false),
+    ];
+    for (way, is_short) in ways {
+        let moved = |at: DVec3| at.map(way);
+        let features: Vec<TileFeature> = city(100)
+            .into_iter()
+            .map(|feature| {
+                let envelope = Box3d::new(moved(feature.envelope.min), moved(feature.envelope.max));
+                let footprint = geo::Rect::new(
+                    (envelope.min.x, envelope.min.y),
+                    (envelope.max.x, envelope.max.y),
+                );
+                TileFeature {
+                    envelope,
+                    outline: vec![envelope.min.truncate(), envelope.max.truncate()],
+                    roof: None,
+                    columns: vec![engine::SolidColumn {
+                        footprint: footprint.to_polygon(),
+                        bottom: envelope.min.z,
+                        top: envelope.max.z,
+                        grounded: feature.id % 2 == 0,
+                    }],
+                    ..feature
+                }
+            })
+            .collect();
+        let tile = Tile::new(&features);
+        let bytes = tile.to_bytes();
+        let read = Tile::from_bytes(&bytes).unwrap();
+        for position in 0..tile.len() {
+            assert_eq!(read.feature(position), tile.feature(position));
+        }
+        assert_eq!(format!("{read:?}"), format!("{tile:?}"));
+        assert_eq!(2 * bytes.len() < tile.size(), is_short);
+    }
+}
+
+#[test]
 fn a_gathered_tile_is_as_one_of_the_same_features() {
     let features = city(300);
     let halves = [
@@ -103,7 +147,7 @@ fn a_gathered_tile_is_as_one_of_the_same_features() {
     let same: Vec<TileFeature> = features.into_iter().filter(|f| wanted(f.id)).collect();
     let same = Tile::new(&same);
     assert_eq!(gathered.len(), same.len());
-    assert_eq!(gathered.byte_length(), same.byte_length());
+    assert_eq!(gathered.size(), same.size());
     let again = Tile::from_bytes(&gathered.to_bytes()).unwrap();
     assert_eq!(again.bounds(), same.bounds());
     for place in [DVec3::ZERO, DVec3::new(60.0, -45.0, 12.0)] {
@@ -141,13 +185,19 @@ fn bytes_that_are_no_tile_are_told() {
         told(short),
         format!("a tile of {found} bytes should have {expected}")
     );
-    let at_tree = 4 + 7 * 4;
+    let (at_layout, at_tree) = (4 + 7 * 4, 4 + 7 * 4 + 3 + 3 * 8);
+    let real = usize::from(bytes[at_layout + 1]);
     let mut loose = bytes.clone();
-    loose[at_tree..at_tree + 8].copy_from_slice(&f64::NAN.to_le_bytes());
+    loose[at_tree..at_tree + real].fill(0xff);
     assert_eq!(told(&loose), "boxes of a tile are not in order");
-    let mut circular = bytes;
-    circular[at_tree + 48] = 0;
+    let mut circular = bytes.clone();
+    circular[at_tree + 6 * real] = 0;
     assert_eq!(told(&circular), "nodes of a tile are not in order");
+    for (at, byte) in [(0, 3), (1, 7), (2, 99), (10, 0x7f)] {
+        let mut odd = bytes.clone();
+        odd[at_layout + at] = byte;
+        assert_eq!(told(&odd), "numbers of a tile are not in order");
+    }
 }
 
 #[test]

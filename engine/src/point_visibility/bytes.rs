@@ -1,5 +1,6 @@
-//! [`Tile`] as bytes: its arrays one after the other, little-endian, so that reading copies them and
-//! computes nothing.
+//! [`Tile`] as bytes: its arrays one after the other, little-endian. Positions take two bytes where that is enough,
+//! and coordinates that are multiples of a millimetre, or of another usual step, are counted in these from a corner of the tile:
+//! they come back with the same bits.
 
 use std::ops::Range;
 
@@ -13,14 +14,14 @@ use crate::Box3d;
 /// First number of the form; another form gets another one.
 const FORM: u32 = 2;
 
-/// Bytes of a node, a feature, a column, a ring, a corner, and an edge and a corner of a roof.
-const NODE: usize = 6 * 8 + 2 * 4;
-const FEATURE: usize = 8 + 6 * 8 + 9 * 4;
-const COLUMN: usize = 2 * 8 + 2 * 4;
-const RING: usize = 2 * 4;
-const CORNER: usize = 2 * 8 + 1;
-const RIDGE: usize = 2 * 2;
-const PEAK: usize = 3 * 8;
+/// Bytes before the arrays.
+const HEAD: usize = 4 + 7 * 4 + 3 + 3 * 8;
+
+/// Steps in a metre that coordinates may be multiples of: those of decimal and of binary fractions, large steps first.
+const STEPS: [f64; 6] = [1000.0, 1024.0, 1e4, 65_536.0, 1e5, 1e6];
+
+/// Coordinates have fewer steps from the origin, so that a step more is another number.
+const MOST_STEPS: f64 = (1_u64 << 52) as f64;
 
 /// Bytes that are no tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -48,45 +49,48 @@ impl Tile {
     /// The tile as bytes, for [`Tile::from_bytes`].
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes = Bytes(Vec::with_capacity(self.counts().length()));
-        bytes.number(FORM);
-        for count in self.counts().0 {
-            bytes.number(u32::try_from(count).expect("positions in a tile are 32 bits wide"));
-        }
+        let (counts, layout) = (self.counts(), Layout::of(self));
+        let mut bytes = Bytes {
+            bytes: Vec::with_capacity(layout.length(&counts)),
+            layout,
+        };
+        bytes.head(&counts);
         for node in &self.tree.nodes {
             bytes.bounds(&node.bounds);
-            bytes.number(node.first);
-            bytes.number(u32::from(node.count) << 1 | u32::from(node.is_leaf));
+            bytes.position(node.first);
+            bytes.position(u32::from(node.count) << 1 | u32::from(node.is_leaf));
         }
         for feature in &self.features {
-            bytes.0.extend(feature.id.to_le_bytes());
+            bytes.bytes.extend(feature.id.to_le_bytes());
             bytes.bounds(&feature.envelope);
             bytes.range(&feature.outline);
             bytes.range(&feature.columns);
             bytes.range(&feature.ridges);
-            bytes.number(feature.crests);
+            bytes.position(feature.crests);
             bytes.range(&feature.peaks);
         }
         for column in &self.columns {
-            bytes.real(column.bottom);
-            bytes.real(column.top);
+            let bottom = Some(column.bottom).filter(|bottom| bottom.is_finite());
+            bytes.flag(bottom.is_none());
+            bytes.real(2, bottom.unwrap_or(column.top));
+            bytes.real(2, column.top);
             bytes.range(&column.rings);
         }
         for ring in &self.rings {
             bytes.range(ring);
         }
         for corner in &self.corners {
-            bytes.real(corner.x);
-            bytes.real(corner.y);
+            bytes.real(0, corner.x);
+            bytes.real(1, corner.y);
         }
         for end in self.ridges.as_flattened() {
-            bytes.0.extend(end.to_le_bytes());
+            bytes.bytes.extend(end.to_le_bytes());
         }
         for peak in &self.peaks {
             bytes.point(*peak);
         }
-        bytes.0.extend(self.buried.iter().map(|&is| u8::from(is)));
-        bytes.0
+        self.buried.iter().for_each(|&is| bytes.flag(is));
+        bytes.bytes
     }
 
     /// The tile of bytes from [`Tile::to_bytes`].
@@ -94,30 +98,68 @@ impl Tile {
     /// # Errors
     /// When they are no tile: whatever they are, a tile that is returned can be searched.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, MalformedTile> {
-        let mut reader = Reader(bytes);
-        let form = reader.checked_number().unwrap_or(0);
+        let form = bytes
+            .first_chunk()
+            .map_or(0, |form| u32::from_le_bytes(*form));
         if form != FORM {
             return Err(MalformedTile::Form(form));
         }
-        let mut counts = Counts([0; 7]);
-        for count in &mut counts.0 {
-            *count = reader.checked_number().unwrap_or(0) as usize;
-        }
-        if bytes.len() != counts.length() {
+        if bytes.len() < HEAD {
             return Err(MalformedTile::Length {
                 found: bytes.len(),
-                expected: counts.length(),
+                expected: HEAD,
             });
         }
+        let (counts, layout) = head(&bytes[4..HEAD])?;
+        let expected = layout.length(&counts);
+        if bytes.len() != expected {
+            return Err(MalformedTile::Length {
+                found: bytes.len(),
+                expected,
+            });
+        }
+        let mut reader = Reader {
+            bytes: &bytes[HEAD..],
+            layout,
+        };
         let tile = reader.tile(&counts);
         tile.check()?;
         Ok(tile)
     }
 
-    /// Length of [`Tile::to_bytes`], which is also what it takes in memory, give or take a few.
+    /// Bytes that it takes in memory, give or take a few.
     #[must_use]
-    pub fn byte_length(&self) -> usize {
-        self.counts().length()
+    pub fn size(&self) -> usize {
+        let sizes = [
+            size_of::<Node>(),
+            size_of::<Feature>(),
+            size_of::<Column>(),
+            size_of::<Range<u32>>(),
+            size_of::<DVec2>() + size_of::<bool>(),
+            size_of::<[u16; 2]>(),
+            size_of::<DVec3>(),
+        ];
+        let items = self.counts().0.into_iter().zip(sizes);
+        size_of::<Self>() + items.map(|(count, size)| count * size).sum::<usize>()
+    }
+
+    /// All its coordinates, each with its axis.
+    fn coordinates(&self) -> impl Iterator<Item = (usize, f64)> {
+        let boxes = self.tree.nodes.iter().map(|node| &node.bounds);
+        let boxes = boxes.chain(self.features.iter().map(|feature| &feature.envelope));
+        let corners = boxes.flat_map(|bounds| [bounds.min, bounds.max]);
+        let points = corners.chain(self.peaks.iter().copied());
+        let points = points.flat_map(|point| point.to_array().into_iter().enumerate());
+        let plan = self
+            .corners
+            .iter()
+            .flat_map(|corner| [(0, corner.x), (1, corner.y)]);
+        let heights = self
+            .columns
+            .iter()
+            .flat_map(|column| [column.bottom, column.top]);
+        let heights = heights.filter(|height| height.is_finite());
+        points.chain(plan).chain(heights.map(|height| (2, height)))
     }
 
     fn counts(&self) -> Counts {
@@ -200,14 +242,95 @@ impl Tile {
 /// How many nodes, features, columns, rings and corners there are, and of roofs, edges and corners.
 struct Counts([usize; 7]);
 
-impl Counts {
-    /// Bytes of a tile with so many.
-    fn length(&self) -> usize {
-        let sizes = [NODE, FEATURE, COLUMN, RING, CORNER, RIDGE, PEAK];
-        let items = self.0.iter().zip(sizes);
-        // Counts are 32 bits wide.
-        4 + 4 * self.0.len() + items.map(|(count, size)| count * size).sum::<usize>()
+/// How the numbers of a tile are written.
+#[derive(Clone, Copy)]
+struct Layout {
+    /// Bytes of a position in an array.
+    position: usize,
+    /// Bytes of a coordinate.
+    real: usize,
+    /// Where they are counted in steps: how many a metre has, by its place in [`STEPS`], and from where, in steps.
+    grid: Option<(usize, [i64; 3])>,
+}
+
+impl Layout {
+    fn of(tile: &Tile) -> Self {
+        let most = tile.counts().0.into_iter().max().unwrap_or(0);
+        let grid = (0..STEPS.len()).find_map(|steps| {
+            let (mut least, mut most) = ([i64::MAX; 3], [i64::MIN; 3]);
+            for (axis, coordinate) in tile.coordinates() {
+                let at = (coordinate * STEPS[steps]).round();
+                if at.abs() >= MOST_STEPS || at / STEPS[steps] != coordinate {
+                    return None;
+                }
+                least[axis] = least[axis].min(at as i64);
+                most[axis] = most[axis].max(at as i64);
+            }
+            let origin = least.map(|least| if least == i64::MAX { 0 } else { least });
+            let extent = (0..3)
+                .map(|axis| most[axis].saturating_sub(origin[axis]))
+                .max()?;
+            let real = (2..=4).find(|bytes| extent < 1 << (8 * bytes))?;
+            Some((real, (steps, origin)))
+        });
+        Self {
+            // One past the last, and twice a count of children.
+            position: if most < 1 << 16 { 2 } else { 4 },
+            real: grid.map_or(size_of::<f64>(), |(real, _)| real),
+            grid: grid.map(|(_, grid)| grid),
+        }
     }
+
+    /// Bytes of a tile with so many.
+    fn length(&self, counts: &Counts) -> usize {
+        let Self { position, real, .. } = *self;
+        let sizes = [
+            6 * real + 2 * position,
+            8 + 6 * real + 9 * position,
+            1 + 2 * real + 2 * position,
+            2 * position,
+            2 * real + 1,
+            2 * size_of::<u16>(),
+            3 * real,
+        ];
+        let items = counts.0.iter().zip(sizes);
+        // Counts are 32 bits wide.
+        HEAD + items.map(|(count, size)| count * size).sum::<usize>()
+    }
+}
+
+/// What stands before the arrays, but for the form.
+fn head(bytes: &[u8]) -> Result<(Counts, Layout), MalformedTile> {
+    let (counts, rest) = bytes.split_at(7 * 4);
+    let counts = counts.as_chunks().0.iter();
+    let counts = counts.map(|count| u32::from_le_bytes(*count) as usize);
+    let (layout, origin) = rest.split_at(3);
+    let mut origin = origin.as_chunks().0.iter();
+    let origin = [(); 3].map(|()| origin.next().map_or(0, |at| i64::from_le_bytes(*at)));
+    let layout = Layout {
+        position: layout[0].into(),
+        real: layout[1].into(),
+        grid: usize::from(layout[2])
+            .checked_sub(1)
+            .map(|steps| (steps, origin)),
+    };
+    let is_known = matches!(layout.position, 2 | 4)
+        && match layout.grid {
+            Some((steps, origin)) => {
+                let is_near = |at: i64| (at.unsigned_abs() as f64) < MOST_STEPS;
+                steps < STEPS.len()
+                    && (2..=4).contains(&layout.real)
+                    && origin.into_iter().all(is_near)
+            }
+            None => layout.real == size_of::<f64>(),
+        };
+    in_order(is_known, "numbers")?;
+    let mut all = Counts([0; 7]);
+    all.0
+        .iter_mut()
+        .zip(counts)
+        .for_each(|(count, read)| *count = read);
+    Ok((all, layout))
 }
 
 fn within(range: &Range<u32>, count: usize, what: &'static str) -> Result<(), MalformedTile> {
@@ -230,15 +353,49 @@ fn is_box(bounds: &Box3d) -> bool {
     bounds.min.is_finite() && bounds.max.is_finite() && bounds.min.cmple(bounds.max).all()
 }
 
-struct Bytes(Vec<u8>);
+struct Bytes {
+    bytes: Vec<u8>,
+    layout: Layout,
+}
 
 impl Bytes {
-    fn number(&mut self, number: u32) {
-        self.0.extend(number.to_le_bytes());
+    fn head(&mut self, counts: &Counts) {
+        let bytes = &mut self.bytes;
+        bytes.extend(FORM.to_le_bytes());
+        for &count in &counts.0 {
+            let count = u32::try_from(count).expect("positions in a tile are 32 bits wide");
+            bytes.extend(count.to_le_bytes());
+        }
+        let Layout {
+            position,
+            real,
+            grid,
+        } = self.layout;
+        let steps = grid.map_or(0, |(steps, _)| steps + 1);
+        let small =
+            |number: usize| u8::try_from(number).expect("widths and kinds of steps are few");
+        bytes.extend([position, real, steps].map(small));
+        let origin = grid.map_or([0; 3], |(_, origin)| origin);
+        bytes.extend(origin.iter().flat_map(|at| at.to_le_bytes()));
     }
 
-    fn real(&mut self, real: f64) {
-        self.0.extend(real.to_le_bytes());
+    fn flag(&mut self, is: bool) {
+        self.bytes.push(u8::from(is));
+    }
+
+    fn position(&mut self, position: u32) {
+        let bytes = position.to_le_bytes();
+        self.bytes.extend(&bytes[..self.layout.position]);
+    }
+
+    fn real(&mut self, axis: usize, real: f64) {
+        let bytes = match self.layout.grid {
+            Some((steps, origin)) => {
+                ((real * STEPS[steps]).round() as i64 - origin[axis]).to_le_bytes()
+            }
+            None => real.to_le_bytes(),
+        };
+        self.bytes.extend(&bytes[..self.layout.real]);
     }
 
     fn bounds(&mut self, bounds: &Box3d) {
@@ -247,19 +404,22 @@ impl Bytes {
     }
 
     fn point(&mut self, point: DVec3) {
-        for real in point.to_array() {
-            self.real(real);
+        for (axis, real) in point.to_array().into_iter().enumerate() {
+            self.real(axis, real);
         }
     }
 
     fn range(&mut self, range: &Range<u32>) {
-        self.number(range.start);
-        self.number(range.end);
+        self.position(range.start);
+        self.position(range.end);
     }
 }
 
-/// Bytes that are left. There are as many as are asked for, but for `checked_number`.
-struct Reader<'a>(&'a [u8]);
+/// Bytes that are left. There are as many as are asked for.
+struct Reader<'a> {
+    bytes: &'a [u8],
+    layout: Layout,
+}
 
 impl Reader<'_> {
     fn tile(&mut self, counts: &Counts) -> Tile {
@@ -275,13 +435,13 @@ impl Reader<'_> {
                 .map(|_| [self.array(), self.array()].map(u16::from_le_bytes))
                 .collect(),
             peaks: (0..peaks).map(|_| self.point()).collect(),
-            buried: self.0.iter().map(|&byte| byte != 0).collect(),
+            buried: self.bytes.iter().map(|&byte| byte != 0).collect(),
         }
     }
 
     fn node(&mut self) -> Node {
         let bounds = self.bounds();
-        let (first, children) = (self.number(), self.number());
+        let (first, children) = (self.position(), self.position());
         Node {
             bounds,
             first,
@@ -298,21 +458,26 @@ impl Reader<'_> {
             outline: self.range(),
             columns: self.range(),
             ridges: self.range(),
-            crests: self.number(),
+            crests: self.position(),
             peaks: self.range(),
         }
     }
 
     fn column(&mut self) -> Column {
+        let [is_grounded] = self.array();
+        let (bottom, top) = (self.real(2), self.real(2));
         Column {
-            bottom: self.real(),
-            top: self.real(),
+            bottom: match is_grounded {
+                0 => bottom,
+                _ => f64::NEG_INFINITY,
+            },
+            top,
             rings: self.range(),
         }
     }
 
     fn corner(&mut self) -> DVec2 {
-        DVec2::new(self.real(), self.real())
+        DVec2::new(self.real(0), self.real(1))
     }
 
     fn bounds(&mut self) -> Box3d {
@@ -323,28 +488,38 @@ impl Reader<'_> {
     }
 
     fn point(&mut self) -> DVec3 {
-        DVec3::new(self.real(), self.real(), self.real())
+        DVec3::new(self.real(0), self.real(1), self.real(2))
     }
 
     fn range(&mut self) -> Range<u32> {
-        self.number()..self.number()
+        self.position()..self.position()
     }
 
-    fn number(&mut self) -> u32 {
-        u32::from_le_bytes(self.array())
+    fn position(&mut self) -> u32 {
+        match self.layout.position {
+            2 => u16::from_le_bytes(self.array()).into(),
+            _ => u32::from_le_bytes(self.array()),
+        }
     }
 
-    fn real(&mut self) -> f64 {
-        f64::from_le_bytes(self.array())
-    }
-
-    fn checked_number(&mut self) -> Option<u32> {
-        (self.0.len() >= 4).then(|| self.number())
+    fn real(&mut self, axis: usize) -> f64 {
+        let Some((steps, origin)) = self.layout.grid else {
+            return f64::from_le_bytes(self.array());
+        };
+        let at: u32 = match self.layout.real {
+            2 => u16::from_le_bytes(self.array()).into(),
+            3 => {
+                let [low, middle, high] = self.array();
+                u32::from_le_bytes([low, middle, high, 0])
+            }
+            _ => u32::from_le_bytes(self.array()),
+        };
+        (origin[axis] + i64::from(at)) as f64 / STEPS[steps]
     }
 
     fn array<const N: usize>(&mut self) -> [u8; N] {
-        let (first, rest) = self.0.split_at(N);
-        self.0 = rest;
+        let (first, rest) = self.bytes.split_at(N);
+        self.bytes = rest;
         first.try_into().expect("so many bytes were split off")
     }
 }

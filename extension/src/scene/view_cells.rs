@@ -1,4 +1,4 @@
-//! `generate_view_cells`.
+//! `generate_view_cells`, and `refresh`, which computes those anew that edits concern.
 //!
 //! The view region is divided into squares, rows of the table `view_cell_block`. Each is locked, covered with
 //! cells and marked as done in one transaction: several sessions share the work, and what was interrupted
@@ -12,7 +12,7 @@ use crate::error::Refusal;
 use crate::settings;
 use crate::snapshot_read::{Moment, sees_the_latest};
 use crate::types::Box3d;
-use crate::visibility::{Around, CELL_BITS, Surroundings};
+use crate::visibility::{Around, CELL_BITS, Surroundings, pack_if_possible};
 use engine::{
     CellQuery, CellSighting, CellSolver, CoverOptions, Street, ViewCell, ViewRegion, square_key,
 };
@@ -25,8 +25,9 @@ use std::collections::HashSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// Name of the work in the table `job`.
+/// Names of the work, the first also in the table `job`.
 const TASK: &str = "generate_view_cells";
+const REFRESH: &str = "refresh";
 
 /// Least edge of the squares that are computed in one transaction, metres.
 const BLOCK: f64 = 32.0;
@@ -47,7 +48,7 @@ fn generate_view_cells(
     let scene = given(scene, "scene");
     let asked = Asked::checked(range, smallest, largest, finest);
     let mut procedure = Procedure::begin(fcinfo, TASK);
-    require_latest();
+    require_latest(TASK);
     run("SELECT occlusion.require_all_cells($1)", &[scene.into()]);
     let mut surroundings = Surroundings::new(scene, settings::generate_bytes());
     surroundings.require_log();
@@ -56,15 +57,54 @@ fn generate_view_cells(
     if blocks.left(&asked) {
         notice!("going on where scene \"{scene}\" was left");
     } else {
-        blocks.plan(scene, &asked, &job);
+        // Who is editing now may have begun before there was a log.
+        blocks.lock_sources();
+        blocks.plan(scene, &asked, "true", &job);
     }
     procedure.commit();
+    compute(scene, &blocks, &mut surroundings, &job, &mut procedure);
+    procedure.end();
+}
 
+/// Brings what was derived from a scene up to date with its edits: tiles, and those view cells that were put out
+/// of use, as they were asked for before.
+#[pg_extern]
+fn refresh(scene: Option<&str>, fcinfo: pg_sys::FunctionCallInfo) {
+    let scene = given(scene, "scene");
+    let mut procedure = Procedure::begin(fcinfo, REFRESH);
+    require_latest(REFRESH);
+    run("SELECT occlusion.require_all_cells($1)", &[scene.into()]);
+    let blocks = Blocks::of(scene);
+    pack_if_possible(scene);
+    procedure.commit();
+    if let Some(asked) = blocks.asked() {
+        let mut surroundings = Surroundings::new(scene, settings::generate_bytes());
+        surroundings.require_log();
+        let job = Job::new(scene, TASK);
+        blocks.lock();
+        blocks.restamp();
+        blocks.plan(scene, &asked, &blocks.concerned(), &job);
+        procedure.commit();
+        compute(scene, &blocks, &mut surroundings, &job, &mut procedure);
+    } else {
+        notice!("scene \"{scene}\" has no view cells");
+    }
+    procedure.end();
+}
+
+/// Computes the cells of all squares that are not done.
+fn compute(
+    scene: &str,
+    blocks: &Blocks,
+    surroundings: &mut Surroundings,
+    job: &Job,
+    procedure: &mut Procedure,
+) {
     let workers = Workers::start();
     let begun = Instant::now();
     let mut told = 0;
     while let Some(block) = blocks.take() {
-        let made = blocks.fill(&block, &mut surroundings, &workers, scene);
+        let made = blocks.fill(&block, surroundings, &workers, scene);
         let (done, total) = job.add(made);
         procedure.commit();
         let tenths = done * 10 / total.max(1);
@@ -76,9 +116,8 @@ fn generate_view_cells(
             );
         }
     }
-    blocks.finish(&job);
+    blocks.finish(job);
     procedure.commit();
-    procedure.end();
 }
 
 /// What the user asked for, checked.
@@ -116,6 +155,17 @@ impl Asked {
         asked
     }
 
+    /// As a row has it.
+    fn of(row: [Option<f64>; 4]) -> Self {
+        let [range, smallest, largest, finest] = row.map(Option::unwrap_or_default);
+        Self {
+            range,
+            smallest,
+            largest,
+            finest,
+        }
+    }
+
     /// Edge of a block: cells fit in it.
     fn block(&self) -> f64 {
         let mut edge = self.largest;
@@ -143,11 +193,11 @@ fn between(value: f64, name: &str, [least, most]: [f64; 2]) -> f64 {
 }
 
 /// Raises an error where statements would not see what others commit meanwhile.
-fn require_latest() {
+fn require_latest(task: &str) {
     if !sees_the_latest() {
         Refusal::new(
             PgSqlErrorCode::ERRCODE_INVALID_TRANSACTION_STATE,
-            format!("{TASK} runs in transactions that are READ COMMITTED"),
+            format!("{task} runs in transactions that are READ COMMITTED"),
         )
         .hint("SET default_transaction_isolation = 'read committed';")
         .raise();
@@ -160,6 +210,8 @@ struct Blocks {
     scene: String,
     /// That a cell c lies in a square b.
     lies_in: String,
+    /// That the cells of a square b are there, and hold what can be seen now.
+    are_right: String,
 }
 
 /// One that is locked.
@@ -171,15 +223,25 @@ struct Block {
 
 impl Blocks {
     fn of(scene: &str) -> Self {
-        let lies_in = read_one::<String>("SELECT occlusion.cell_in_block_condition()", &[]);
+        let condition = |query: &str, arguments: &[DatumWithOid]| {
+            let text = read_one::<String>(query, arguments);
+            text.unwrap_or_else(|| unreachable!("a condition is text"))
+        };
+        let valid = condition(
+            "SELECT occlusion.valid_cells_condition($1)",
+            &[scene.into()],
+        );
         Self {
             scene: quoted(scene),
-            lies_in: lies_in.unwrap_or_else(|| unreachable!("a condition is text")),
+            lies_in: condition("SELECT occlusion.cell_in_block_condition()", &[]),
+            are_right: format!(
+                "b.done AND (b.cluster OPERATOR(pg_catalog.=) occlusion.cluster_identity()) IS TRUE AND {valid}"
+            ),
         }
     }
 
-    /// Locks the table against others who begin, not against those at work; whether there is work left of the same kind.
-    fn left(&self, asked: &Asked) -> bool {
+    /// Locks the table against others who begin, not against those at work.
+    fn lock(&self) {
         run(
             &format!(
                 "LOCK TABLE {}.view_cell_block IN SHARE UPDATE EXCLUSIVE MODE",
@@ -187,23 +249,10 @@ impl Blocks {
             ),
             &[],
         );
-        let query = format!(
-            "SELECT EXISTS (SELECT FROM {}.view_cell_block WHERE NOT done AND {IS_ASKED})",
-            self.scene
-        );
-        one(&query, &asked.arguments()).unwrap_or(false)
     }
 
-    /// Plans all anew. Cells that are there stay until their square is done, unless they are of another kind
-    /// or where no street is any more.
-    fn plan(&self, scene: &str, asked: &Asked, job: &Job) {
-        let streets = streets::read(scene);
-        let query = format!("SELECT EXISTS (SELECT FROM {}.feature)", self.scene);
-        if streets.is_empty() && one(&query, &[]).unwrap_or(false) {
-            streets::refuse_none(scene);
-        }
-        run("SELECT occlusion.assign_slots($1)", &[scene.into()]);
-        // Who is editing now may have begun before there was a log.
+    /// Waits for those who are editing, and lets nobody else begin.
+    fn lock_sources(&self) {
         run(
             &format!(
                 "LOCK TABLE {0}.feature, {0}.solid_column, {0}.inner_envelope, {0}.mesh, {0}.street \
@@ -212,6 +261,68 @@ impl Blocks {
             ),
             &[],
         );
+    }
+
+    /// What was asked for last; `None` if nothing was.
+    fn asked(&self) -> Option<Asked> {
+        let query = format!(
+            "SELECT range, smallest, largest, finest FROM {}.view_cell_block LIMIT 1",
+            self.scene
+        );
+        let asked = Spi::connect_mut(|client| {
+            let row = client.update(&query, None, &[])?.first();
+            if row.is_empty() {
+                return Ok(None);
+            }
+            Ok::<_, pgrx::spi::Error>(Some(Asked::of([
+                row.get(1)?,
+                row.get(2)?,
+                row.get(3)?,
+                row.get(4)?,
+            ])))
+        });
+        asked.unwrap_or_else(|error| failed(&error))
+    }
+
+    /// That edits concern a square b. Where it has no cells, eyes may have been in what is gone now.
+    fn concerned(&self) -> String {
+        format!(
+            "NOT ({}) OR b.box IS NULL AND EXISTS (SELECT FROM {}.change)",
+            self.are_right, self.scene
+        )
+    }
+
+    /// Of cells that no edit so far concerns, takes down that they hold these edits, too.
+    fn restamp(&self) {
+        run(
+            &format!(
+                "UPDATE {0}.view_cell_block AS b SET snapshot = pg_catalog.pg_current_snapshot() \
+                 WHERE EXISTS (SELECT FROM {0}.change) AND {1}",
+                self.scene, self.are_right
+            ),
+            &[],
+        );
+    }
+
+    /// Locks the table; whether there is work left of the same kind.
+    fn left(&self, asked: &Asked) -> bool {
+        self.lock();
+        let query = format!(
+            "SELECT EXISTS (SELECT FROM {}.view_cell_block WHERE NOT done AND {IS_ASKED})",
+            self.scene
+        );
+        one(&query, &asked.arguments()).unwrap_or(false)
+    }
+
+    /// Plans new squares, and anew those b of the others for which a condition holds. Cells that are there stay
+    /// until their square is done, unless they are of another kind or where no street is any more.
+    fn plan(&self, scene: &str, asked: &Asked, anew: &str, job: &Job) {
+        let streets = streets::read(scene);
+        let query = format!("SELECT EXISTS (SELECT FROM {}.feature)", self.scene);
+        if streets.is_empty() && one(&query, &[]).unwrap_or(false) {
+            streets::refuse_none(scene);
+        }
+        run("SELECT occlusion.assign_slots($1)", &[scene.into()]);
         let squares = squares(streets, asked.block());
         let ids: Vec<i64> = squares.iter().map(|square| square.id).collect();
         run(
@@ -255,13 +366,22 @@ impl Blocks {
                                               occlusion.point3d(s.x1, s.y1, 0)), $1, $2, $3, $4 \
                  FROM ROWS FROM (pg_catalog.unnest($5), pg_catalog.unnest($6), pg_catalog.unnest($7), \
                                  pg_catalog.unnest($8), pg_catalog.unnest($9)) AS s (id, x0, y0, x1, y1) \
-                 ON CONFLICT (id) DO UPDATE SET done = false",
+                 ON CONFLICT (id) DO UPDATE SET done = false WHERE {anew}",
                 self.scene
             ),
             &arguments.collect::<Vec<_>>(),
         );
-        notice!("{} squares of {} m", squares.len(), asked.block());
-        job.start(squares.len());
+        let query = format!(
+            "SELECT pg_catalog.count(*) FROM {}.view_cell_block WHERE NOT done",
+            self.scene
+        );
+        let open = one::<i64>(&query, &[]).and_then(|open| usize::try_from(open).ok());
+        let (open, all) = (open.unwrap_or(0), squares.len());
+        match open == all {
+            true => notice!("{all} squares of {} m", asked.block()),
+            false => notice!("{open} of {all} squares of {} m", asked.block()),
+        }
+        job.start(open);
     }
 
     /// Locks a square that is not done, and that nobody else is at.
@@ -276,14 +396,8 @@ impl Blocks {
             if row.is_empty() {
                 return Ok(None);
             }
-            let number = |column: usize| row.get::<f64>(column).map(Option::unwrap_or_default);
             let block = row.get::<i64>(1)?.zip(row.get::<Box3d>(2)?);
-            let asked = Asked {
-                range: number(3)?,
-                smallest: number(4)?,
-                largest: number(5)?,
-                finest: number(6)?,
-            };
+            let asked = Asked::of([row.get(3)?, row.get(4)?, row.get(5)?, row.get(6)?]);
             Ok::<_, pgrx::spi::Error>(block.map(|(id, area)| Block {
                 id,
                 area: area.0,
@@ -317,7 +431,11 @@ impl Blocks {
             .flat_map(|cell| &cell.visible)
             .copied()
             .collect();
-        let slots = surroundings.slots(&ids);
+        let mut slots = surroundings.slots(&ids);
+        if slots.len() < ids.len() {
+            run("SELECT occlusion.assign_slots($1)", &[scene.into()]);
+            slots = surroundings.slots(&ids);
+        }
         run(
             &format!(
                 "DELETE FROM {0}.view_cell AS c USING {0}.view_cell_block AS b \
@@ -331,7 +449,7 @@ impl Blocks {
             let of = |ids: &[i64]| -> Option<Vec<i64>> {
                 ids.iter().map(|id| slots.get(id).copied()).collect()
             };
-            // A feature that was added since has no slot: of what sees it, nothing is known yet.
+            // Of what sees a feature that is gone meanwhile, nothing is known.
             let Some((visible, unproven)) = of(&cell.visible).zip(of(&cell.unproven)) else {
                 continue;
             };

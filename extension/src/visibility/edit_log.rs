@@ -4,7 +4,8 @@
 //!
 //! A row is logged before it changes, and after if it became different from what was announced: at no
 //! moment is there a change that is not in the log. A change of what hides in a feature is logged with
-//! no place: the feature may be elsewhere by the time that others see it.
+//! no place: the feature may be elsewhere by the time that others see it. Of a feature that is deleted, `change`
+//! has the slot, too: what is not seen is not missed, so it concerns nothing but cells that see it.
 
 use super::tables::{has_pages, opened, relation};
 use crate::direct_call::direct_function;
@@ -94,8 +95,11 @@ impl Event {
             for row in rows {
                 let id: Option<i64> = self.value(row, c"id");
                 let place = self.value::<Box3d>(row, c"envelope");
+                let is_removal =
+                    log.kind == Kind::Cells && self.operation == pg_sys::TRIGGER_EVENT_DELETE;
+                let slot = is_removal.then(|| self.value(row, c"slot")).flatten();
                 if let Some((id, place)) = id.zip(place) {
-                    log.add_place(id, &place, is_all_ours);
+                    log.add_place(id, &place, slot, is_all_ours);
                 }
             }
         } else {
@@ -256,12 +260,17 @@ impl Log {
         })
     }
 
-    /// That a feature was, or is, in a place. `is_all_ours`: it was made or deleted, and what hides in
-    /// it is no longer, or not yet, anybody else's.
-    fn add_place(&self, feature: i64, place: &Box3d, is_all_ours: bool) {
-        if !remember(self.table, feature, Some(bits(*place)), is_all_ours) {
-            let arguments = [feature.into_datum(), place.into_datum()];
-            self.write(Write::Place, &arguments);
+    /// That a feature was, or is, in a place. `slot`: it is gone, and nothing is concerned but cells that
+    /// hold this. `is_all_ours`: it was made or deleted, and what hides in it is no longer, or not yet,
+    /// anybody else's.
+    fn add_place(&self, feature: i64, place: &Box3d, slot: Option<i32>, is_all_ours: bool) {
+        if remember(self.table, feature, Some((bits(*place), slot)), is_all_ours) {
+            return;
+        }
+        let arguments = [feature.into_datum(), place.into_datum(), slot.into_datum()];
+        match slot {
+            Some(_) => self.write(Write::Removal, &arguments),
+            None => self.write(Write::Place, &arguments),
         }
     }
 
@@ -297,6 +306,7 @@ impl Log {
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 enum Write {
     Place,
+    Removal,
     Anywhere,
     Street,
     Truncate,
@@ -313,6 +323,10 @@ impl Write {
             Self::Place => Statement::new(
                 &format!("INSERT INTO {log} (feature, place) VALUES ($1, $2)"),
                 &[pg_sys::INT8OID, Box3d::type_oid()],
+            ),
+            Self::Removal => Statement::new(
+                &format!("INSERT INTO {log} (feature, place, slot) VALUES ($1, $2, $3)"),
+                &[pg_sys::INT8OID, Box3d::type_oid(), pg_sys::INT4OID],
             ),
             Self::Anywhere => Statement::new(
                 &format!("INSERT INTO {log} (feature) VALUES ($1)"),
@@ -375,16 +389,19 @@ fn bits(place: Box3d) -> [u64; 6] {
     [a[0], a[1], a[2], b[0], b[1], b[2]]
 }
 
+/// A place, and the slot of the cells that are concerned if these are not all.
+type Place = ([u64; 6], Option<i32>);
+
 /// What this transaction has logged of a feature.
 #[derive(Default)]
 struct Logged {
-    places: Vec<[u64; 6]>,
+    places: Vec<Place>,
     anywhere: bool,
     is_all_ours: bool,
 }
 
 /// Remembers an entry of the log, `place` if it has one; returns whether one that says as much is there.
-fn remember(edit: Oid, feature: i64, place: Option<[u64; 6]>, is_all_ours: bool) -> bool {
+fn remember(edit: Oid, feature: i64, place: Option<Place>, is_all_ours: bool) -> bool {
     forget_in_time();
     LOGGED.with_borrow_mut(|all| {
         if all.len() >= MOST_REMEMBERED {
@@ -395,7 +412,11 @@ fn remember(edit: Oid, feature: i64, place: Option<[u64; 6]>, is_all_ours: bool)
         match place {
             None if logged.is_all_ours => true,
             None => std::mem::replace(&mut logged.anywhere, true),
-            Some(place) if logged.places.contains(&place) => true,
+            Some(place @ (bounds, _))
+                if logged.places.contains(&place) || logged.places.contains(&(bounds, None)) =>
+            {
+                true
+            }
             Some(place) => {
                 if logged.places.len() < MOST_PLACES {
                     logged.places.push(place);

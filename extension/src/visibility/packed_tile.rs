@@ -62,7 +62,7 @@ impl PackedTile {
             .iter()
             .map(|class| class.len() + size_of::<String>())
             .sum();
-        let size = tile.byte_length() + names + 4 * class_of.len() + size_of::<Self>();
+        let size = tile.size() + names + 4 * class_of.len() + size_of::<Self>();
         Self {
             tile,
             classes,

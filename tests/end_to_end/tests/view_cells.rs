@@ -170,6 +170,57 @@ fn edits_while_cells_are_computed_are_never_overlooked() {
 }
 
 #[test]
+fn deleted_houses_concern_the_cells_that_see_them_until_these_are_refreshed() {
+    let mut scene = town("cells_deleted", 150);
+    scene.run(&call(&scene.name));
+    let in_use = "SELECT count(s.box) * 100 / count(*) FROM pg_temp.generate_eyes() AS e (eye)
+                  LEFT JOIN LATERAL occlusion.visible_set('{n}', e.eye) AS s ON true";
+    let mut before = 100;
+    for id in [20, 110] {
+        scene.run(&format!("DELETE FROM {{s}}.feature WHERE id = {id}"));
+        assert_eq!(unseen(&mut scene), 0);
+        let now = number(&mut scene, in_use);
+        assert!(
+            0 < now && now < before,
+            "{now} % of the eyes after {before} %"
+        );
+        before = now;
+    }
+    let report = check_cells(&scene).expect(0).json();
+    assert_eq!(report["false_occlusions"], 0, "{report:#}");
+    // As if the houses had not been seen from anywhere.
+    scene.run("CREATE TABLE {s}.kept AS TABLE {s}.change");
+    scene.run("UPDATE {s}.change SET slot = 1000000 WHERE place IS NOT NULL");
+    assert_eq!(number(&mut scene, in_use), 100);
+    assert!(unseen(&mut scene) > 0);
+    scene.run("DELETE FROM {s}.change; INSERT INTO {s}.change TABLE {s}.kept; DROP TABLE {s}.kept");
+    assert_eq!(number(&mut scene, in_use), before);
+
+    let squares = scene.number(DONE);
+    let computed = "SELECT count(*) FROM {s}.view_cell_block AS b
+                    WHERE EXISTS (SELECT FROM {s}.view_cell AS c WHERE c.id >> 22 = b.id AND c.xmin::text::bigint > ";
+    let last = scene.number("SELECT max(xmin::text::bigint) FROM {s}.view_cell");
+    let refresh = format!("CALL occlusion.refresh('{}')", scene.name);
+    let sessions: Vec<_> = (0..2)
+        .map(|_| {
+            let refresh = refresh.clone();
+            thread::spawn(move || client().batch_execute(&refresh))
+        })
+        .collect();
+    for session in sessions {
+        session.join().expect("it ends").expect("it is done");
+    }
+    let anew = scene.number(&format!("{computed}{last})"));
+    assert!(0 < anew && anew < squares, "{anew} of {squares} squares");
+    assert_eq!(number(&mut scene, in_use), 100);
+    assert_eq!(unseen(&mut scene), 0);
+    assert_eq!(scene.number("SELECT count(*) FROM {s}.change"), 0);
+    assert_eq!(scene.number("SELECT count(*) FROM {s}.edit"), 0);
+    let report = check_cells(&scene).expect(0).json();
+    assert_eq!(report["stored_faults"], 0, "{report:#}");
+}
+
+#[test]
 fn an_edit_that_is_packed_while_a_square_is_begun_is_not_overlooked() {
     let mut scene = town("cells_packed", 400);
     let work = thread::spawn({

@@ -4,7 +4,7 @@ CREATE FUNCTION occlusion.scene_status(scene text)
 RETURNS TABLE (features bigint, solid_columns bigint, models bigint, streets bigint, occlusion_volumes bigint,
                tiles bigint, edits bigint, squares bigint, right_squares bigint, right_share float8,
                view_cells bigint, proven_share float8, changes bigint, computed timestamptz, bytes numeric)
-LANGUAGE plpgsql STABLE STRICT COST 100000
+LANGUAGE plpgsql STABLE STRICT ROWS 1 COST 100000
 SET search_path = pg_catalog, pg_temp AS $$
 DECLARE
     has_tiles boolean := to_regclass(format('%I.tile', scene)) IS NOT NULL;

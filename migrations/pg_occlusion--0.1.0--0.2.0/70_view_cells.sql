@@ -3,3 +3,4 @@
 -- include sql/77_view_cells.sql
 
 -- include sql/78_visible_ahead.sql
+-- include sql/79_scene_status.sql

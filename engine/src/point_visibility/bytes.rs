@@ -1,6 +1,6 @@
 //! [`Tile`] as bytes: its arrays one after the other, little-endian. Positions take two bytes where that is enough,
 //! and coordinates that are multiples of a millimetre, or of another usual step, are counted in these from a corner of the tile:
-//! they come back with the same bits.
+//! they come back as the same numbers.
 
 use std::ops::Range;
 

@@ -8,6 +8,7 @@ pub mod polygon;
 mod procedure;
 mod snapshot;
 mod solids;
+mod squares;
 mod streets;
 mod view_cells;
 mod view_region;

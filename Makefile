@@ -1,7 +1,7 @@
 # Every target is a script in scripts/; see CONTRIBUTING.md.
 # PG_CONFIG=/path/to/pg_config chooses another PostgreSQL, 14 to 18; "make test" without it tests on 15 and 18.
 
-.PHONY: help setup build db db-stop clean-db demo test bench-index bench-point bench-cells install lint fmt
+.PHONY: help setup build db db-stop clean-db demo test attack bench-index bench-point bench-cells install lint fmt
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
@@ -26,6 +26,9 @@ demo: ## a real city to a visible answer (CITY=file, FRESH=1)
 
 test: ## run every test; ends with "N passed, N failed"
 	@scripts/test
+
+attack: build ## sessions that edit and query for MINUTES=10, every answer judged (SEED=1)
+	@scripts/attack $(or $(MINUTES),10) $(or $(SEED),1)
 
 bench-index: build ## the indexes of box3d against PostGIS and cube (ROWS=100000 is quick, FORMAT=markdown)
 	@scripts/bench index

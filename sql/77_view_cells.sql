@@ -39,7 +39,7 @@ BEGIN
         CREATE INDEX view_cell_block_visible ON %1$I.view_cell_block USING gin (visible) WITH (fastupdate = off);
         COMMENT ON TABLE %1$I.view_cell_block IS 'squares of the view region, each covered with view cells in one transaction; derived';
         COMMENT ON COLUMN %1$I.view_cell_block.id IS 'number, by its place: along a curve through the plan';
-        COMMENT ON COLUMN %1$I.view_cell_block.area IS 'the square, at height 0';
+        COMMENT ON COLUMN %1$I.view_cell_block.area IS 'the square, at all heights';
         COMMENT ON COLUMN %1$I.view_cell_block.range IS 'how far eyes see, metres';
         COMMENT ON COLUMN %1$I.view_cell_block.smallest IS 'edge below which no cell is divided, metres';
         COMMENT ON COLUMN %1$I.view_cell_block.largest IS 'longest edge of a cell, metres';
@@ -90,10 +90,10 @@ LANGUAGE c AS 'MODULE_PATHNAME', 'refresh_wrapper';
 COMMENT ON PROCEDURE occlusion.refresh(text) IS
     'brings tiles and view cells up to date with the edits since they were computed: computes only what these concern';
 
--- Whether the view cells of a square b are right under the snapshot of the query: no edit that the query sees
--- and the cells do not is near them. What is not seen from a cell is not missed when it is deleted. Edits without
--- a place are looked through, and not the features nearby, which are many more as a rule. It is only asked where
--- the cluster is the one whose transactions the square names.
+-- Whether a square b is right under the snapshot of the query: no edit that the query sees and its cells do not
+-- is in it, where eyes may be now that could not be, or near it. What is not seen from its cells is not missed when
+-- it is deleted. Edits without a place are looked through, and not the features nearby, which are many more as a
+-- rule. It is only asked where the cluster is the one whose transactions the square names.
 -- Without edits nothing is looked up; and the planner makes no joins of it, which would ask for each cell again.
 CREATE FUNCTION occlusion.valid_cells_condition(scene text) RETURNS text
 LANGUAGE sql IMMUTABLE STRICT PARALLEL SAFE
@@ -101,20 +101,21 @@ SET search_path = pg_catalog, pg_temp AS $$
     SELECT format($q$
         ((SELECT NOT EXISTS (SELECT FROM %1$I.change)) OR NOT EXISTS (
             SELECT FROM %1$I.change AS e
-            WHERE e.place OPERATOR(occlusion.&&) occlusion.expand(b.box, b.range)
-              AND (e.feature IS NOT NULL OR e.place OPERATOR(occlusion.&&) b.box)
-              AND (e.slot IS NULL OR b.visible OPERATOR(occlusion.@>) e.slot::pg_catalog.int8)
+            WHERE e.place OPERATOR(occlusion.&&) occlusion.expand(b.area, b.range)
+              AND (e.place OPERATOR(occlusion.&&) b.area
+                   OR e.feature IS NOT NULL
+                      AND (e.slot IS NULL OR b.visible OPERATOR(occlusion.@>) e.slot::pg_catalog.int8))
               AND NOT pg_catalog.pg_visible_in_snapshot(e.transaction, b.snapshot)
         ) AND NOT EXISTS (
             SELECT FROM %1$I.change AS e
             WHERE e.place IS NULL AND NOT pg_catalog.pg_visible_in_snapshot(e.transaction, b.snapshot)
               AND (SELECT f.envelope FROM %1$I.feature AS f WHERE f.id OPERATOR(pg_catalog.=) e.feature)
-                      OPERATOR(occlusion.&&) occlusion.expand(b.box, b.range)
+                      OPERATOR(occlusion.&&) occlusion.expand(b.area, b.range)
         ))
     $q$, scene)
 $$;
 COMMENT ON FUNCTION occlusion.valid_cells_condition(text) IS
-    'the condition that the view cells of a square, b, hold what can be seen now';
+    'the condition that the view cells of a square, b, are there wherever eyes can be, and hold what can be seen now';
 
 -- That a cell c is one of a square b.
 CREATE FUNCTION occlusion.cell_in_block_condition() RETURNS text

@@ -98,8 +98,20 @@ fn compute(
     let workers = Workers::start();
     let begun = Instant::now();
     let mut told = 0;
+    let mut gone = HashSet::new();
     while let Some(block) = blocks.take() {
-        let made = blocks.fill(&block, surroundings, &workers, scene);
+        let made = match blocks.fill(&block, surroundings, &workers, scene) {
+            Ok(made) => made,
+            Err(features) => {
+                // What is gone is not met again, unless the tiles were not told of it.
+                let ghost = features.into_iter().find(|feature| !gone.insert(*feature));
+                if let Some(ghost) = ghost {
+                    refuse_ghost(scene, ghost);
+                }
+                procedure.commit();
+                continue;
+            }
+        };
         let (done, total) = job.add(made);
         procedure.commit();
         let tenths = done * 10 / total.max(1);
@@ -113,6 +125,18 @@ fn compute(
     }
     blocks.finish(job);
     procedure.commit();
+}
+
+fn refuse_ghost(scene: &str, feature: i64) -> ! {
+    Refusal::new(
+        PgSqlErrorCode::ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE,
+        format!("tiles of scene \"{scene}\" hold feature {feature}, which was deleted"),
+    )
+    .detail("The deletion was not logged: triggers of the scene were disabled, perhaps.")
+    .hint(format!(
+        "TRUNCATE the table tile of the scene, then SELECT occlusion.pack_tiles('{scene}')."
+    ))
+    .raise()
 }
 
 /// What the user asked for, checked.
@@ -279,12 +303,9 @@ impl Blocks {
         asked.unwrap_or_else(|error| failed(&error))
     }
 
-    /// That edits concern a square b. Where it has no cells, eyes may have been in what is gone now.
+    /// That edits concern a square b.
     fn concerned(&self) -> String {
-        format!(
-            "NOT ({}) OR b.box IS NULL AND EXISTS (SELECT FROM {}.change)",
-            self.are_right, self.scene
-        )
+        format!("NOT ({})", self.are_right)
     }
 
     /// Of cells that no edit so far concerns, takes down that they hold these edits, too.
@@ -357,12 +378,14 @@ impl Blocks {
         run(
             &format!(
                 "INSERT INTO {}.view_cell_block AS b (id, area, range, smallest, largest, finest) \
-                 SELECT s.id, occlusion.box3d(occlusion.point3d(s.x0, s.y0, 0), \
-                                              occlusion.point3d(s.x1, s.y1, 0)), $1, $2, $3, $4 \
+                 SELECT s.id, occlusion.box3d(occlusion.point3d(s.x0, s.y0, '{:?}'), \
+                                              occlusion.point3d(s.x1, s.y1, '{:?}')), $1, $2, $3, $4 \
                  FROM ROWS FROM (pg_catalog.unnest($5), pg_catalog.unnest($6), pg_catalog.unnest($7), \
                                  pg_catalog.unnest($8), pg_catalog.unnest($9)) AS s (id, x0, y0, x1, y1) \
                  ON CONFLICT (id) DO UPDATE SET done = false WHERE {anew}",
-                self.scene
+                self.scene,
+                f64::MIN,
+                f64::MAX
             ),
             &arguments.collect::<Vec<_>>(),
         );
@@ -402,14 +425,15 @@ impl Blocks {
         block.unwrap_or_else(|error| failed(&error))
     }
 
-    /// Covers a square with cells; returns how many there are.
+    /// Covers a square with cells; returns how many there are. If features were deleted meanwhile that one of them
+    /// sees, these are returned and the square is still to be done: what is behind them is in no set.
     fn fill(
         &self,
         block: &Block,
         surroundings: &mut Surroundings,
         workers: &Workers,
         scene: &str,
-    ) -> usize {
+    ) -> Result<usize, Vec<i64>> {
         // Before anything is read: what is edited from now on is not in the sets, or looks as if it were not.
         let snapshot: Option<String> = one(
             "SELECT pg_catalog.pg_current_snapshot()::pg_catalog.text",
@@ -431,6 +455,12 @@ impl Blocks {
             run("SELECT occlusion.assign_slots($1)", &[scene.into()]);
             slots = surroundings.slots(&ids);
         }
+        if slots.len() < ids.len() {
+            return Err(ids
+                .into_iter()
+                .filter(|id| !slots.contains_key(id))
+                .collect());
+        }
         run(
             &format!(
                 "DELETE FROM {0}.view_cell AS c USING {0}.view_cell_block AS b \
@@ -439,15 +469,8 @@ impl Blocks {
             ),
             &[block.id.into()],
         );
-        let mut made = 0;
-        for cell in &cells {
-            let of = |ids: &[i64]| -> Option<Vec<i64>> {
-                ids.iter().map(|id| slots.get(id).copied()).collect()
-            };
-            // Of what sees a feature that is gone meanwhile, nothing is known.
-            let Some((visible, unproven)) = of(&cell.visible).zip(of(&cell.unproven)) else {
-                continue;
-            };
+        let of = |ids: &[i64]| -> Vec<i64> { ids.iter().map(|id| slots[id]).collect() };
+        for (number, cell) in cells.iter().enumerate() {
             run(
                 &format!(
                     "INSERT INTO {}.view_cell (id, box, visible, unproven) \
@@ -455,13 +478,12 @@ impl Blocks {
                     self.scene
                 ),
                 &[
-                    ((block.id << CELL_BITS) + count(made)).into(),
+                    ((block.id << CELL_BITS) + count(number)).into(),
                     Box3d(cell.bounds).into(),
-                    visible.into(),
-                    unproven.into(),
+                    of(&cell.visible).into(),
+                    of(&cell.unproven).into(),
                 ],
             );
-            made += 1;
         }
         run(
             &format!(
@@ -475,7 +497,7 @@ impl Blocks {
             ),
             &[block.id.into(), snapshot.into()],
         );
-        made
+        Ok(cells.len())
     }
 
     /// Ends the work if no square is left, and forgets the changes that all cells hold.

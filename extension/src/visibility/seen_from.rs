@@ -14,8 +14,8 @@ use pgrx::iter::TableIterator;
 use pgrx::pg_sys::Datum;
 use pgrx::{IntoDatum, PgSqlErrorCode, name, pg_extern};
 
-/// View cells from which a feature may be seen. Of cells that may be out of date, nothing is known but how
-/// far one sees from them.
+/// View cells from which a feature may be seen. Of squares that are not computed or out of date, nothing is known
+/// but how far one sees from them.
 #[pg_extern(stable, strict, parallel_safe)]
 fn visible_from(
     scene: &str,

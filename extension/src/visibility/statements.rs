@@ -67,7 +67,8 @@ pub enum Ask {
     Sought,
     /// Boxes of the right view cells in a cluster from which a slot may be seen, and whether that is proven.
     SeenFrom,
-    /// Boxes of view cells within range of a box that may be out of date, or are of another cluster.
+    /// Boxes of the squares within range of a box of which nothing is known, with all heights that eyes there may
+    /// have, and of streets that are changed or new: no cell need be there yet. Of all streets where there is no square.
     UnknownFrom,
     /// Id and envelope of the features with some slots.
     Slotted,
@@ -144,13 +145,27 @@ impl Ask {
                 valid_cells(name)
             ),
             Self::UnknownFrom => format!(
-                "SELECT c.box::occlusion.box3d FROM {} \
-                 WHERE ((SELECT EXISTS (SELECT FROM {scene}.change)) OR (SELECT EXISTS ( \
+                "SELECT occlusion.box3d( \
+                     occlusion.point3d(occlusion.x(occlusion.lower(b.area)), \
+                                       occlusion.y(occlusion.lower(b.area)), s.low), \
+                     occlusion.point3d(occlusion.x(occlusion.upper(b.area)), \
+                                       occlusion.y(occlusion.upper(b.area)), s.high)) \
+                 FROM {scene}.view_cell_block AS b CROSS JOIN LATERAL ( \
+                     SELECT pg_catalog.min(t.eye_low), pg_catalog.max(t.eye_high) FROM {scene}.street AS t \
+                     WHERE t.envelope OPERATOR(occlusion.&&) b.area) AS s (low, high) \
+                 WHERE ((SELECT EXISTS (SELECT FROM {scene}.change)) \
+                        OR (SELECT EXISTS (SELECT FROM {scene}.view_cell_block AS o WHERE NOT o.done)) \
+                        OR (SELECT EXISTS ( \
                            SELECT FROM {scene}.view_cell_block AS o WHERE o.cluster OPERATOR(pg_catalog.<) $2 \
                                OR o.cluster OPERATOR(pg_catalog.>) $2))) \
-                   AND b.box OPERATOR(occlusion.&&) occlusion.expand($1, b.range) \
-                   AND (b.cluster OPERATOR(pg_catalog.<>) $2 OR NOT ({}))",
-                cells(name),
+                   AND b.area OPERATOR(occlusion.&&) occlusion.expand($1, b.range) AND s.low IS NOT NULL \
+                   AND (NOT b.done OR b.cluster OPERATOR(pg_catalog.<>) $2 OR NOT ({})) \
+                 UNION ALL \
+                 SELECT e.place FROM {scene}.change AS e WHERE e.feature IS NULL AND e.place OPERATOR(occlusion.&&) \
+                     occlusion.expand($1, (SELECT pg_catalog.max(b.range) FROM {scene}.view_cell_block AS b)) \
+                 UNION ALL \
+                 SELECT t.envelope FROM {scene}.street AS t \
+                 WHERE NOT EXISTS (SELECT FROM {scene}.view_cell_block)",
                 valid_cells(name)
             ),
             Self::Sought => format!(

@@ -409,11 +409,17 @@ END
 $$;
 COMMENT ON FUNCTION occlusion.forget_occluder_volumes() IS 'trigger: drops the volumes cast by a solid that changed';
 
--- Truncated, too: to older snapshots a truncated table looks empty, and deleted rows are there.
+-- Truncated, too: to older snapshots a truncated table looks empty, and deleted rows are there. Where the table
+-- is in use it is truncated just now by the same command, or there is a cursor on it.
 CREATE OR REPLACE FUNCTION occlusion.forget_all_volumes() RETURNS trigger
 LANGUAGE plpgsql SET search_path = pg_catalog, pg_temp AS $$
 BEGIN
-    EXECUTE format('TRUNCATE %I.occlusion_volume', TG_TABLE_SCHEMA);
+    BEGIN
+        EXECUTE format('TRUNCATE %I.occlusion_volume', TG_TABLE_SCHEMA);
+    EXCEPTION WHEN object_in_use THEN
+        PERFORM occlusion.require_all_volumes(TG_TABLE_SCHEMA);
+        EXECUTE format('DELETE FROM %I.occlusion_volume', TG_TABLE_SCHEMA);
+    END;
     RETURN NULL;
 END
 $$;

@@ -72,11 +72,12 @@ fn refresh(scene: Option<&str>, fcinfo: pg_sys::FunctionCallInfo) {
     let blocks = Blocks::of(scene);
     pack_if_possible(scene);
     procedure.commit();
+    // Locked first: when all are truncated edits are not logged.
+    blocks.lock();
     if let Some(asked) = blocks.asked() {
         let mut surroundings = Surroundings::new(scene, settings::generate_bytes());
         surroundings.require_log();
         let job = Job::new(scene, TASK);
-        blocks.lock();
         blocks.restamp();
         blocks.plan(scene, &asked, &blocks.concerned(), &job);
         procedure.commit();

@@ -62,8 +62,6 @@ struct Packing {
     name: String,
     tables: Tables,
     statements: Rc<Statements>,
-    /// Whether there never were tiles, so that edits were not logged.
-    is_first: bool,
 }
 
 impl Packing {
@@ -73,7 +71,6 @@ impl Packing {
             scene: quoted(scene),
             name: scene.to_owned(),
             statements: Statements::of(scene, &tables),
-            is_first: !tables.has_tiles(),
             tables,
         }
     }
@@ -110,6 +107,15 @@ impl Packing {
                  edit, INSERT and DELETE on tile, DELETE on edit, and UPDATE on scene_info.",
             ));
         }
+        // Where there never were tiles, or all were truncated, edits are not logged; nobody truncates from now on.
+        let is_locked = self.tables.lock_tiles(wait)
+            && (self.tables.has_tiles() || self.tables.lock_sources(wait));
+        if !is_locked {
+            return Err(Refusal::new(
+                PgSqlErrorCode::ERRCODE_LOCK_NOT_AVAILABLE,
+                format!("others are editing scene \"{name}\""),
+            ));
+        }
         // Without a tile in sight, the last edits may be from before there was a log: a packing that was
         // rolled back leaves pages, and no tile.
         if !sees_the_latest() && self.count("tile") == 0 {
@@ -119,12 +125,6 @@ impl Packing {
             )
             .detail("Its snapshot may be older than edits that nothing was to log.")
             .hint("Pack it in a transaction that is READ COMMITTED."));
-        }
-        if self.is_first && !self.tables.lock_sources(wait) {
-            return Err(Refusal::new(
-                PgSqlErrorCode::ERRCODE_LOCK_NOT_AVAILABLE,
-                format!("others are editing scene \"{name}\""),
-            ));
         }
         // One at a time; and an older snapshot than the last one's fails here.
         run(

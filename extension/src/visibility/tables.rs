@@ -247,20 +247,27 @@ impl Tables {
     /// Keeps others from editing until the end of the transaction; with `wait` false only if nobody is
     /// just doing so. Returns whether it does.
     pub fn lock_sources(&self, wait: bool) -> bool {
-        let lock = pg_sys::ShareLock as pg_sys::LOCKMODE;
-        SOURCES.iter().all(|name| {
-            let oid = relation(self.namespace, name);
-            // SAFETY: locks a table that was found in the catalog until the transaction ends.
-            unsafe {
-                if wait {
-                    pg_sys::LockRelationOid(oid, lock);
-                    true
-                } else {
-                    pg_sys::ConditionalLockRelationOid(oid, lock)
-                }
-            }
-        })
+        let sources = SOURCES.iter().map(|name| relation(self.namespace, name));
+        lock(sources, pg_sys::ShareLock, wait)
     }
+
+    /// Keeps others from truncating the tiles until the end of the transaction, as `lock_sources` does.
+    pub fn lock_tiles(&self, wait: bool) -> bool {
+        lock([self.tile], pg_sys::RowExclusiveLock, wait)
+    }
+}
+
+/// Locks tables that were found in the catalog until the transaction ends; with `wait` false only if nobody
+/// else stands against it. Returns whether it did.
+fn lock(tables: impl IntoIterator<Item = Oid>, mode: u32, wait: bool) -> bool {
+    let mode = mode.cast_signed();
+    // SAFETY: a lock may be taken on any number of a table.
+    tables.into_iter().all(|table| unsafe {
+        if wait {
+            pg_sys::LockRelationOid(table, mode);
+        }
+        wait || pg_sys::ConditionalLockRelationOid(table, mode)
+    })
 }
 
 /// A relation of a schema; [`pg_sys::InvalidOid`] if there is none.

@@ -215,6 +215,31 @@ fn a_first_packing_waits_for_those_who_edit_unlogged() {
 }
 
 #[test]
+fn a_packing_that_waits_while_tiles_are_truncated_is_a_first_one() {
+    let mut stage = Stage::new("sessions_truncated");
+    let name = stage.scene.name.clone();
+    // One packing at a time: this one is in the way of the next.
+    let gate = format!("BEGIN; SELECT FROM {name}.scene_info FOR UPDATE");
+    stage.reader.batch_execute(&gate).unwrap();
+    let packing = {
+        let pack = format!("SELECT occlusion.pack_tiles('{name}')");
+        thread::spawn(move || client().batch_execute(&pack))
+    };
+    thread::sleep(Duration::from_millis(300));
+    let mut other = client();
+    let truncate = format!("SET lock_timeout = '1s'; TRUNCATE {name}.tile");
+    // It may be refused, if the packing keeps it out.
+    let _ = other.batch_execute(&truncate);
+    stage.write("BEGIN");
+    stage.write("INSERT INTO {}.feature (id, class, envelope) VALUES (1000, 'Tower', 'BOX3D(60 60 0, 61 61 90)')");
+    stage.reader.batch_execute("ROLLBACK").unwrap();
+    thread::sleep(Duration::from_millis(300));
+    stage.write("COMMIT");
+    packing.join().unwrap().unwrap();
+    assert_eq!(stage.read(), by_tables(&mut stage.writer, &name));
+}
+
+#[test]
 fn an_old_snapshot_cannot_pack_what_was_edited_unlogged() {
     let mut stage = Stage::new("sessions_unlogged");
     let name = stage.scene.name.clone();

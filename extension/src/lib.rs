@@ -11,6 +11,7 @@ mod models;
 mod planner;
 mod scene;
 mod settings;
+mod shared;
 mod snapshot_read;
 mod toasted;
 mod types;

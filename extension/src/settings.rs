@@ -1,6 +1,7 @@
 //! Settings, `pg_occlusion.*`.
 
 use pgrx::{GucContext, GucFlags, GucRegistry, GucSetting};
+use std::time::Duration;
 
 /// Threads that one procedure may use; 0 for one a core.
 pub static MAX_THREADS: GucSetting<i32> = GucSetting::<i32>::new(0);
@@ -16,6 +17,15 @@ static USE_VOLUMES: GucSetting<bool> = GucSetting::<bool>::new(true);
 
 /// Whether answers look only at what may be seen from the view cell of the eye.
 static USE_CELLS: GucSetting<bool> = GucSetting::<bool>::new(false);
+
+/// Whether a background worker refreshes what edits put out of use.
+static AUTO_REFRESH: GucSetting<bool> = GucSetting::<bool>::new(false);
+
+/// How long it waits for more edits, milliseconds.
+static REFRESH_DELAY: GucSetting<i32> = GucSetting::<i32>::new(1000);
+
+/// Longest delay, a day, milliseconds.
+const LONGEST_DELAY: i32 = 24 * 60 * 60 * 1000;
 
 /// Most threads that can be asked for.
 const MOST_THREADS: i32 = 1024;
@@ -68,6 +78,24 @@ pub fn register() {
         GucContext::Userset,
         GucFlags::default(),
     );
+    GucRegistry::define_bool_guc(
+        c"pg_occlusion.auto_refresh",
+        c"Calls a background worker after edits, which does what refresh does.",
+        c"It works as the owner of the scene, who must be allowed to log in.",
+        &AUTO_REFRESH,
+        GucContext::Suset,
+        GucFlags::default(),
+    );
+    GucRegistry::define_int_guc(
+        c"pg_occlusion.refresh_delay",
+        c"How long that worker waits for more edits.",
+        c"Whoever edits in this time calls no other one.",
+        &REFRESH_DELAY,
+        0,
+        LONGEST_DELAY,
+        GucContext::Suset,
+        GucFlags::UNIT_MS,
+    );
 }
 
 /// Whether answers leave out what occlusion volumes hide.
@@ -78,6 +106,16 @@ pub fn uses_volumes() -> bool {
 /// Whether answers look only at what may be seen from the view cell of an eye.
 pub fn uses_cells() -> bool {
     USE_CELLS.get()
+}
+
+/// Whether a background worker refreshes what edits put out of use.
+pub fn refreshes_by_itself() -> bool {
+    AUTO_REFRESH.get()
+}
+
+/// How long it waits for more edits.
+pub fn refresh_delay() -> Duration {
+    Duration::from_millis(REFRESH_DELAY.get().unsigned_abs().into())
 }
 
 /// Bytes of the tiles that a backend keeps.

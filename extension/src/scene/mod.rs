@@ -1,5 +1,6 @@
 //! Procedures on scenes: they read tables by SPI, let `engine` compute, and write rows back.
 
+mod auto_refresh;
 mod city;
 mod ground;
 mod job;
@@ -14,6 +15,7 @@ mod view_cells;
 mod view_region;
 mod workers;
 
+pub use auto_refresh::wish as wish_refresh;
 pub use ground::settle;
 pub use streets::near as near_streets;
 pub use workers::Workers;

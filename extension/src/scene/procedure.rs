@@ -1,13 +1,18 @@
-//! [`Procedure`], a CALL that commits as it goes.
+//! [`Procedure`], work that commits as it goes.
 
 use crate::error::Refusal;
 use pgrx::{PgSqlErrorCode, pg_sys};
 
-/// A running procedure that may commit. Its queries go through [`pgrx::Spi`] as usual.
-pub struct Procedure;
+/// Work that may commit. Its queries go through [`pgrx::Spi`] as usual.
+pub enum Procedure {
+    /// A CALL.
+    Call,
+    /// A background worker.
+    Worker,
+}
 
 impl Procedure {
-    /// Begins; raises an error when the call is inside a transaction of the user's.
+    /// Begins a CALL; raises an error when it is inside a transaction of the user's.
     pub fn begin(fcinfo: pg_sys::FunctionCallInfo, name: &str) -> Self {
         if is_atomic(fcinfo) {
             Refusal::new(
@@ -21,19 +26,53 @@ impl Procedure {
         // SAFETY: runs on the backend's main thread; the connection is closed in `end`, or by
         // PostgreSQL itself when an error aborts the call.
         unsafe { pg_sys::SPI_connect_ext(pg_sys::SPI_OPT_NONATOMIC.cast_signed()) };
-        Self
+        Self::Call
+    }
+
+    /// Begins the first transaction of a background worker, or the next one.
+    pub fn of_worker() -> Self {
+        begin_transaction();
+        Self::Worker
     }
 
     /// Makes all that was written so far permanent, and begins the next transaction.
     pub fn commit(&mut self) {
-        // SAFETY: the innermost SPI connection is ours and not atomic.
-        unsafe { pg_sys::SPI_commit() };
+        match self {
+            // SAFETY: the innermost SPI connection is ours and not atomic.
+            Self::Call => unsafe { pg_sys::SPI_commit() },
+            Self::Worker => {
+                end_transaction();
+                begin_transaction();
+            }
+        }
     }
 
     /// Ends in order. Not a `Drop`: after an error PostgreSQL has cleaned up already.
     pub fn end(self) {
-        // SAFETY: closes the connection that `begin` opened.
-        unsafe { pg_sys::SPI_finish() };
+        match self {
+            // SAFETY: closes the connection that `begin` opened.
+            Self::Call => unsafe {
+                pg_sys::SPI_finish();
+            },
+            Self::Worker => end_transaction(),
+        }
+    }
+}
+
+fn begin_transaction() {
+    // SAFETY: a background worker is in no transaction.
+    unsafe {
+        pg_sys::SetCurrentStatementStartTimestamp();
+        pg_sys::StartTransactionCommand();
+        pg_sys::PushActiveSnapshot(pg_sys::GetTransactionSnapshot());
+    }
+}
+
+fn end_transaction() {
+    // SAFETY: ends what `begin_transaction` began.
+    unsafe {
+        pg_sys::PopActiveSnapshot();
+        pg_sys::CommitTransactionCommand();
     }
 }
 

@@ -67,6 +67,12 @@ fn generate_view_cells(
 fn refresh(scene: Option<&str>, fcinfo: pg_sys::FunctionCallInfo) {
     let scene = given(scene, "scene");
     let mut procedure = Procedure::begin(fcinfo, REFRESH);
+    bring_up_to_date(scene, &mut procedure);
+    procedure.end();
+}
+
+/// The same, as part of other work.
+pub fn bring_up_to_date(scene: &str, procedure: &mut Procedure) {
     require_latest(REFRESH);
     run("SELECT occlusion.require_all_cells($1)", &[scene.into()]);
     let blocks = Blocks::of(scene);
@@ -74,18 +80,17 @@ fn refresh(scene: Option<&str>, fcinfo: pg_sys::FunctionCallInfo) {
     procedure.commit();
     // Locked first: when all are truncated edits are not logged.
     blocks.lock();
-    if let Some(asked) = blocks.asked() {
-        let mut surroundings = Surroundings::new(scene, settings::generate_bytes());
-        surroundings.require_log();
-        let job = Job::new(scene, TASK);
-        blocks.restamp();
-        blocks.plan(scene, &asked, &blocks.concerned(), &job);
-        procedure.commit();
-        compute(scene, &blocks, &mut surroundings, &job, &mut procedure);
-    } else {
+    let Some(asked) = blocks.asked() else {
         notice!("scene \"{scene}\" has no view cells");
-    }
-    procedure.end();
+        return;
+    };
+    let mut surroundings = Surroundings::new(scene, settings::generate_bytes());
+    surroundings.require_log();
+    let job = Job::new(scene, TASK);
+    blocks.restamp();
+    blocks.plan(scene, &asked, &blocks.concerned(), &job);
+    procedure.commit();
+    compute(scene, &blocks, &mut surroundings, &job, procedure);
 }
 
 /// Computes the cells of all squares that are not done.

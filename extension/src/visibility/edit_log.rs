@@ -10,7 +10,7 @@
 use super::tables::{has_pages, opened, relation};
 use crate::direct_call::direct_function;
 use crate::error::Refusal;
-use crate::scene::quoted;
+use crate::scene::{quoted, wish_refresh};
 use crate::snapshot_read::{Moment, Statement};
 use crate::types::Box3d;
 use pgrx::pg_sys::{self, Datum, Oid};
@@ -203,6 +203,7 @@ struct Log {
     scene: String,
     kind: Kind,
     table: Oid,
+    namespace: Oid,
 }
 
 /// For whom edits are logged.
@@ -256,6 +257,7 @@ impl Log {
                 scene: scene.to_string_lossy().into_owned(),
                 kind,
                 table,
+                namespace,
             })
         })
     }
@@ -295,6 +297,7 @@ impl Log {
     /// Writes as the log's owner, so that nobody who may edit can do so without a trace.
     fn write(&self, write: Write, arguments: &[Option<Datum>]) {
         let arguments: Vec<Datum> = arguments.iter().copied().flatten().collect();
+        wish_refresh(self.namespace);
         as_owner_of(self.table, || {
             with_statement(self, write, |statement| {
                 statement.read(Moment::Now, &arguments, |_| {});

@@ -1,6 +1,7 @@
 //! What can be seen, found by the solver while the query runs: of all that is in range, or of what may be
 //! seen from the view cell of the eye.
 
+use super::counters::count_answer;
 use super::packed_tile::PackedTile;
 use super::statements::Statements;
 use super::tables::Tables;
@@ -112,6 +113,7 @@ impl View {
             seen.retain(|seen| !hidden.contains_key(&seen.id));
         }
         account.hidden = account.in_view - seen.len();
+        count_answer(tables.namespace(), !is_live, account.hidden > 0, seen.len());
         (seen, account)
     }
 

@@ -3,6 +3,7 @@
 mod ahead;
 mod base;
 mod cache;
+mod counters;
 mod directions;
 mod edit_log;
 mod line_of_sight;

@@ -1,5 +1,6 @@
 //! Queries that view cells answer.
 
+use super::counters::count_set;
 use super::statements::Statements;
 use super::tables::Tables;
 use super::view_cell::{self, ViewCell};
@@ -28,6 +29,7 @@ fn visible_set(scene: &str, observer: Point3d) -> Rows {
             (set, Box3d(cell.bounds), cell.range)
         }));
     }
+    count_set(tables.namespace(), !rows.is_empty());
     TableIterator::new(rows)
 }
 

@@ -219,6 +219,56 @@ fn deleted_houses_concern_the_cells_that_see_them_until_these_are_refreshed() {
     assert_eq!(report["stored_faults"], 0, "{report:#}");
 }
 
+/// Workers that refresh the scene, or wait.
+const WORKERS: &str = "SELECT count(*) FROM pg_stat_activity
+    WHERE backend_type = 'pg_occlusion refresh' AND datname = current_database()";
+
+#[test]
+fn a_worker_refreshes_what_was_edited_by_itself() {
+    let mut scene = town("cells_by_themselves", 120);
+    scene.run(&call(&scene.name));
+    scene.run("SET pg_occlusion.auto_refresh = on; SET pg_occlusion.refresh_delay = '1s'");
+    let pending = |scene: &mut TestScene| {
+        number(
+            scene,
+            "SELECT squares - right_squares + changes + edits FROM occlusion.scene_status('{n}')",
+        )
+    };
+    // What is rolled back calls nobody.
+    scene.run("BEGIN; DELETE FROM {s}.feature WHERE id = 30; ROLLBACK");
+    thread::sleep(Duration::from_millis(300));
+    assert_eq!(scene.number(WORKERS), 0);
+    for id in [20, 60, 100] {
+        scene.run(&format!("DELETE FROM {{s}}.feature WHERE id = {id}"));
+    }
+    assert!(pending(&mut scene) > 0);
+    let began = Instant::now();
+    while pending(&mut scene) > 0 {
+        let workers = scene.number(WORKERS);
+        assert!(workers <= 1, "{workers} workers for edits of one second");
+        assert!(began.elapsed() < Duration::from_secs(60), "it never comes");
+        thread::sleep(Duration::from_millis(50));
+    }
+    assert_eq!(unseen(&mut scene), 0);
+    // Others who edit need not know of it, and may not call workers as they like.
+    scene.run("DROP ROLE IF EXISTS e2e_nobody; CREATE ROLE e2e_nobody; SET ROLE e2e_nobody");
+    let refused = scene
+        .client
+        .batch_execute("SET pg_occlusion.auto_refresh = on");
+    let code = refused.expect_err("it is refused").code().cloned();
+    assert_eq!(code, Some(SqlState::INSUFFICIENT_PRIVILEGE));
+    scene.run("RESET ROLE; DROP ROLE e2e_nobody");
+    // A scene that is dropped before its worker begins.
+    scene.run("DELETE FROM {s}.feature WHERE id = 40");
+    let name = scene.name.clone();
+    scene.run(&format!("SELECT occlusion.drop_scene('{name}')"));
+    let began = Instant::now();
+    while scene.number(WORKERS) > 0 {
+        assert!(began.elapsed() < Duration::from_secs(60), "it never ends");
+        thread::sleep(Duration::from_millis(50));
+    }
+}
+
 #[test]
 fn an_edit_that_is_packed_while_a_square_is_begun_is_not_overlooked() {
     let mut scene = town("cells_packed", 400);

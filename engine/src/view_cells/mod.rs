@@ -5,6 +5,7 @@
 //! that leaves something open, the cell is divided.
 
 mod area;
+mod behind;
 mod cover;
 mod crack;
 mod erosion;

@@ -79,6 +79,12 @@ impl CellScene {
         }
     }
 
+    /// Positions of all features, as [`CellSighting`](crate::CellSighting) has them.
+    pub fn features(&self) -> impl Iterator<Item = (usize, usize)> {
+        let tiles = self.tiles.iter().enumerate();
+        tiles.flat_map(|(at, tile)| (0..tile.tile.len()).map(move |feature| (at, feature)))
+    }
+
     /// Number and outer envelope of a feature, by the position of its tile and its own.
     #[must_use]
     pub fn feature(&self, (tile, feature): (usize, usize)) -> (i64, Box3d) {

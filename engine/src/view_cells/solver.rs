@@ -1,10 +1,11 @@
 //! [`CellSolver`], the visible set of a view cell.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::iter::successors;
 
 use glam::DVec3;
 
+use super::behind::may_be_behind;
 use super::scene::{CellScene, Plain, Stage};
 use crate::point_visibility::{Known, Sifting, Spot};
 use crate::{Box3d, PointQuery, PointSolver};
@@ -84,9 +85,50 @@ impl CellSolver {
         is_open: &dyn Fn(&Box3d) -> bool,
         cancelled: &dyn Fn() -> bool,
     ) -> Option<Vec<CellSighting>> {
+        self.search(scene, query, HashSet::new(), is_open, cancelled)
+    }
+
+    /// The features that may be seen from somewhere in a cell now that others are gone from their places, besides
+    /// those that could be seen before; as [`Self::solve`] has them. `is_known` says of the number of a
+    /// feature whether it could.
+    ///
+    /// What was hidden from the cell and is not behind the place of what is gone, as seen from there, is hidden by what is
+    /// left. What is gone and could not be seen itself does not matter (`docs/how-it-works.md`, "When a cell counts").
+    pub fn solve_behind(
+        &mut self,
+        scene: &CellScene,
+        query: &CellQuery,
+        gone: &[Box3d],
+        is_known: &dyn Fn(i64) -> bool,
+        is_open: &dyn Fn(&Box3d) -> bool,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Option<Vec<CellSighting>> {
+        let is_out = |feature: (usize, usize)| {
+            let (id, bounds) = scene.feature(feature);
+            let is_behind = |place| may_be_behind(&query.bounds, place, &bounds);
+            is_known(id) || !gone.iter().any(is_behind)
+        };
+        let spot = |(tile, feature): (usize, usize)| Spot { tile, feature };
+        let out = scene.features().filter(|&feature| is_out(feature));
+        let out: HashSet<Spot> = out.map(spot).collect();
+        self.search(scene, query, out, is_open, cancelled)
+    }
+
+    /// Decides all features but some.
+    fn search(
+        &mut self,
+        scene: &CellScene,
+        query: &CellQuery,
+        out: HashSet<Spot>,
+        is_open: &dyn Fn(&Box3d) -> bool,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Option<Vec<CellSighting>> {
         self.seen.clear();
+        self.seen
+            .extend(out.iter().map(|spot| (*spot, DVec3::ZERO)));
         self.solves = 0;
         let mut search = Search {
+            looks_around: out.is_empty(),
             solver: self,
             scene,
             stages: HashMap::new(),
@@ -103,7 +145,8 @@ impl CellSolver {
             feature: (spot.tile, spot.feature),
             eye: *eye,
         };
-        let mut seen: Vec<CellSighting> = self.seen.iter().map(sighting).collect();
+        let seen = self.seen.iter().filter(|(spot, _)| !out.contains(spot));
+        let mut seen: Vec<CellSighting> = seen.map(sighting).collect();
         seen.sort_unstable_by_key(|sighting| sighting.feature);
         Some(seen)
     }
@@ -141,6 +184,8 @@ struct Search<'a> {
     stages: HashMap<Option<u64>, Stage<'a>>,
     range: f64,
     precision: f64,
+    /// Whether most of what can be seen is not known yet, so that a look from some points tells most of it.
+    looks_around: bool,
     is_open: &'a dyn Fn(&Box3d) -> bool,
     cancelled: &'a dyn Fn() -> bool,
 }
@@ -157,7 +202,9 @@ impl Search<'_> {
             }
             return;
         }
-        self.look_around(&cell);
+        if self.looks_around {
+            self.look_around(&cell);
+        }
         let left = self.sift(&cell, None);
         self.refine(&cell, left);
     }

@@ -7,6 +7,7 @@ mod job;
 mod occlusion_volumes;
 pub mod polygon;
 mod procedure;
+mod repair;
 mod snapshot;
 mod solids;
 mod squares;

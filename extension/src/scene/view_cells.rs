@@ -57,7 +57,14 @@ fn generate_view_cells(
         blocks.plan(scene, &asked, "true", &job);
     }
     procedure.commit();
-    compute(scene, &blocks, &mut surroundings, &job, &mut procedure);
+    compute(
+        scene,
+        &blocks,
+        &mut surroundings,
+        &job,
+        &mut procedure,
+        false,
+    );
     procedure.end();
 }
 
@@ -90,23 +97,28 @@ pub fn bring_up_to_date(scene: &str, procedure: &mut Procedure) {
     blocks.restamp();
     blocks.plan(scene, &asked, &blocks.concerned(), &job);
     procedure.commit();
-    compute(scene, &blocks, &mut surroundings, &job, procedure);
+    compute(scene, &blocks, &mut surroundings, &job, procedure, true);
 }
 
-/// Computes the cells of all squares that are not done.
+/// Computes the cells of all squares that are not done; where deletions alone concern one, `repairs` it.
 fn compute(
     scene: &str,
     blocks: &Blocks,
     surroundings: &mut Surroundings,
     job: &Job,
     procedure: &mut Procedure,
+    repairs: bool,
 ) {
     let workers = Workers::start();
     let begun = Instant::now();
     let mut told = 0;
     let mut gone = HashSet::new();
     while let Some(block) = blocks.take() {
-        let made = match blocks.fill(&block, surroundings, &workers, scene) {
+        let repaired = repairs
+            .then(|| blocks.repair(&block, surroundings, &workers, scene))
+            .flatten();
+        let filled = repaired.unwrap_or_else(|| blocks.fill(&block, surroundings, &workers, scene));
+        let made = match filled {
             Ok(made) => made,
             Err(features) => {
                 // What is gone is not met again, unless the tiles were not told of it.
@@ -147,11 +159,11 @@ fn refuse_ghost(scene: &str, feature: i64) -> ! {
 
 /// What the user asked for, checked.
 #[derive(Clone, Copy)]
-struct Asked {
-    range: f64,
+pub struct Asked {
+    pub range: f64,
     smallest: f64,
     largest: f64,
-    finest: f64,
+    pub finest: f64,
 }
 
 impl Asked {
@@ -230,20 +242,20 @@ fn require_latest(task: &str) {
 }
 
 /// The squares of a scene.
-struct Blocks {
+pub struct Blocks {
     /// Its name, quoted.
-    scene: String,
+    pub scene: String,
     /// That a cell c lies in a square b.
-    lies_in: String,
+    pub lies_in: String,
     /// That the cells of a square b are there, and hold what can be seen now.
     are_right: String,
 }
 
 /// One that is locked.
-struct Block {
-    id: i64,
-    area: engine::Box3d,
-    asked: Asked,
+pub struct Block {
+    pub id: i64,
+    pub area: engine::Box3d,
+    pub asked: Asked,
 }
 
 impl Blocks {
@@ -441,10 +453,7 @@ impl Blocks {
         scene: &str,
     ) -> Result<usize, Vec<i64>> {
         // Before anything is read: what is edited from now on is not in the sets, or looks as if it were not.
-        let snapshot: Option<String> = one(
-            "SELECT pg_catalog.pg_current_snapshot()::pg_catalog.text",
-            &[],
-        );
+        let snapshot = Self::snapshot();
         let region = ViewRegion::new(streets::near(scene, Moment::Now, &block.area));
         let eyes = region.filled(&block.area);
         let cells = eyes.map_or(Vec::new(), |eyes| {
@@ -491,6 +500,20 @@ impl Blocks {
                 ],
             );
         }
+        self.finish_square(block, snapshot);
+        Ok(cells.len())
+    }
+
+    /// The snapshot of now, as text.
+    pub fn snapshot() -> Option<String> {
+        one(
+            "SELECT pg_catalog.pg_current_snapshot()::pg_catalog.text",
+            &[],
+        )
+    }
+
+    /// Takes down that the cells of a square are there, and hold all edits that a snapshot shows.
+    pub fn finish_square(&self, block: &Block, snapshot: Option<String>) {
         run(
             &format!(
                 "UPDATE {0}.view_cell_block AS b \
@@ -503,7 +526,6 @@ impl Blocks {
             ),
             &[block.id.into(), snapshot.into()],
         );
-        Ok(cells.len())
     }
 
     /// Ends the work if no square is left, and forgets the changes that all cells hold.
@@ -587,23 +609,35 @@ fn prove(
         range: asked.range,
         precision: asked.finest,
     };
-    let is_open = |bounds: &engine::Box3d| region.touches(bounds);
-    let witnesses = solver.prove(
-        &around.scene,
-        &around.surfaces,
-        &query,
-        &cell.visible,
-        &is_open,
-        stop,
-    )?;
-    let id = |seen: &CellSighting| around.scene.feature(seen.feature).0;
-    let unproven = cell.visible.iter().zip(&witnesses);
-    let unproven = unproven.filter(|(_, witness)| witness.is_none());
+    let (visible, unproven) = proven(solver, around, &query, &cell.visible, &is_eye(region), stop)?;
     Some(Made {
         bounds: cell.bounds,
-        unproven: unproven.map(|(spot, _)| id(spot)).collect(),
-        visible: cell.visible.iter().map(id).collect(),
+        visible,
+        unproven,
     })
+}
+
+/// Whether an eye may be in a box.
+pub fn is_eye(region: &ViewRegion) -> impl Fn(&engine::Box3d) -> bool {
+    |bounds| region.touches(bounds)
+}
+
+/// The numbers of features that may be seen from a cell, and of those that no witness was found for; `None` where
+/// the work is cancelled.
+pub fn proven(
+    solver: &mut CellSolver,
+    around: &Around,
+    query: &CellQuery,
+    seen: &[CellSighting],
+    is_open: &dyn Fn(&engine::Box3d) -> bool,
+    stop: &dyn Fn() -> bool,
+) -> Option<(Vec<i64>, Vec<i64>)> {
+    let witnesses = solver.prove(&around.scene, &around.surfaces, query, seen, is_open, stop)?;
+    let id = |seen: &CellSighting| around.scene.feature(seen.feature).0;
+    let unproven = seen.iter().zip(&witnesses);
+    let unproven = unproven.filter(|(_, witness)| witness.is_none());
+    let unproven = unproven.map(|(seen, _)| id(seen)).collect();
+    Some((seen.iter().map(id).collect(), unproven))
 }
 
 /// The one value of a query.

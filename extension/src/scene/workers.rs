@@ -53,6 +53,10 @@ impl Workers {
             }
         });
         check_for_interrupts!();
+        if cancelled.load(Ordering::Relaxed) {
+            // What is incomplete goes nowhere, even if the cancel was taken back.
+            Refusal::new(PgSqlErrorCode::ERRCODE_QUERY_CANCELED, "canceled").raise();
+        }
         result.unwrap_or_else(|| unreachable!("the pool re-raises a panic of its work"))
     }
 }

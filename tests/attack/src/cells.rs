@@ -67,7 +67,48 @@ impl CellTrial {
             self.counts.queries += 1;
             self.counts.returned += answer.len() as u64;
             self.judge(&query, &answer);
+            if self.rng.bool() {
+                self.demolish(solver, &tiles, &query, answer);
+            }
         }
+    }
+
+    /// Takes away some features that a cell sees, and finds out what is seen in their place.
+    fn demolish(
+        &mut self,
+        solver: &mut CellSolver,
+        tiles: &[Vec<TileFeature>],
+        query: &CellQuery,
+        mut answer: Vec<i64>,
+    ) {
+        let gone: Vec<i64> = (0..self.rng.usize(1..=3))
+            .filter_map(|_| self.rng.choice(&answer).copied())
+            .collect();
+        let left = |part: &Vec<TileFeature>| -> Vec<TileFeature> {
+            let left = part.iter().filter(|feature| !gone.contains(&feature.id));
+            left.cloned().collect()
+        };
+        let tile = |part: &Vec<TileFeature>| Arc::new(CellTile::new(Tile::new(&left(part))));
+        let scene = CellScene::new(tiles.iter().map(tile).collect());
+        let at = |id: &i64| usize::try_from(*id).unwrap_or_default();
+        let places: Vec<Box3d> = gone
+            .iter()
+            .map(|id| self.features[at(id)].envelope)
+            .collect();
+        let is_known = |id: i64| answer.binary_search(&id).is_ok();
+        let seen = solver.solve_behind(&scene, query, &places, &is_known, &|_| true, &|| false);
+        let seen = seen.unwrap_or_default();
+        let more = seen.iter().map(|seen| scene.feature(seen.feature).0);
+        // Those that are gone stay in the answer: nothing is looked for there.
+        answer.extend(more.collect::<Vec<i64>>());
+        answer.sort_unstable();
+        self.counts.queries += 1;
+        let judged = self.judged.clone();
+        for id in &gone {
+            self.judged[at(id)].columns.clear();
+        }
+        self.judge(query, &answer);
+        self.judged = judged;
     }
 
     /// A box near where an eye would be: thin, flat, a point, or as large as a building.

@@ -24,11 +24,11 @@ postmaster_of() {
     head -n 1 "$1/data/postmaster.pid"
 }
 
-# Waits until processes are gone, whoever's children they are; half a minute at most.
+# Waits until processes are gone, whoever's children they are; two minutes at most.
 wait_until_gone() {
     local process tries
     for process in "$@"; do
-        for ((tries = 0; tries < 600; tries++)); do
+        for ((tries = 0; tries < 2400; tries++)); do
             kill -0 "$process" 2>/dev/null || continue 2
             sleep 0.05
         done

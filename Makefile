@@ -1,10 +1,10 @@
 # Every target is a script in scripts/; see CONTRIBUTING.md.
 # PG_CONFIG=/path/to/pg_config chooses another PostgreSQL, 14 to 18; "make test" without it tests on 15 and 18.
 
-.PHONY: help setup build db db-stop clean-db demo test attack bench-index bench-point bench-cells install lint fmt
+.PHONY: help setup build db db-stop clean-db demo test attack crash-test bench-index bench-point bench-cells install lint fmt
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
 
 setup: ## install what a bare Debian 12 lacks
 	@scripts/setup
@@ -29,6 +29,9 @@ test: ## run every test; ends with "N passed, N failed"
 
 attack: build ## sessions that edit and query for MINUTES=10, every answer judged (SEED=1)
 	@scripts/attack $(or $(MINUTES),10) $(or $(SEED),1)
+
+crash-test: build ## kill a server at random moments of its work, and look at what is there afterwards (KILLS=100, SEED=number)
+	@scripts/crash-test --kills $(or $(KILLS),100) $(if $(SEED),--seed $(SEED)) --plant
 
 bench-index: build ## the indexes of box3d against PostGIS and cube (ROWS=100000 is quick, FORMAT=markdown)
 	@scripts/bench index

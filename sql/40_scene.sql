@@ -68,6 +68,11 @@ SET search_path = pg_catalog, pg_temp AS $$
         ('view_cell_block', 'visible', 'occlusion.feature_set'),
         ('view_cell_block', 'snapshot', 'pg_snapshot'),
         ('view_cell_block', 'cluster', 'bigint'),
+        ('view_cell_block', 'seal', 'bytea'),
+        ('seal', 'x', 'bigint'),
+        ('seal', 'y', 'bigint'),
+        ('seal', 'box', 'occlusion.box3d'),
+        ('seal', 'content', 'bytea'),
         ('change', 'feature', 'bigint'),
         ('change', 'place', 'occlusion.box3d'),
         ('change', 'slot', 'integer'),
@@ -112,7 +117,7 @@ BEGIN
      WHERE (c.relkind IS NULL OR c.relkind NOT IN ('r', 'p')
             OR format_type(a.atttypid, a.atttypmod) IS DISTINCT FROM e.type_name)
        AND NOT (c.relkind IS NULL
-                AND e.table_name IN ('tile', 'edit', 'view_cell', 'view_cell_block', 'change'))
+                AND e.table_name IN ('tile', 'edit', 'view_cell', 'view_cell_block', 'change', 'seal'))
      LIMIT 1;
     IF FOUND THEN
         RAISE EXCEPTION 'scene "%" is damaged', scene
@@ -354,6 +359,7 @@ BEGIN
     $ddl$, s, srid);
     PERFORM occlusion.add_tiles(scene);
     PERFORM occlusion.add_view_cells(scene);
+    PERFORM occlusion.add_replica_triggers(scene);
 END
 $$;
 COMMENT ON FUNCTION occlusion.create_scene(text, integer) IS

@@ -85,6 +85,7 @@ BEGIN
     END IF;
     PERFORM occlusion.add_tiles(scene);
     PERFORM occlusion.add_view_cells(scene);
+    PERFORM occlusion.add_replica_triggers(scene);
     EXECUTE format('UPDATE %I.scene_info SET format_version = 2', scene);
     PERFORM occlusion.pack_tiles(scene, optional => true);
     RETURN true;

@@ -31,7 +31,8 @@ BEGIN
             box occlusion.box3d,
             visible occlusion.feature_set NOT NULL DEFAULT '{}',
             snapshot pg_snapshot,
-            cluster bigint
+            cluster bigint,
+            seal bytea
         );
         CREATE INDEX view_cell_block_open ON %1$I.view_cell_block (id) WHERE NOT done;
         CREATE INDEX view_cell_block_box ON %1$I.view_cell_block USING gist (box);
@@ -49,6 +50,20 @@ BEGIN
         COMMENT ON COLUMN %1$I.view_cell_block.visible IS 'slots of the features that may be seen from one of its cells';
         COMMENT ON COLUMN %1$I.view_cell_block.snapshot IS 'edits that this snapshot does not show are not in its cells'' sets';
         COMMENT ON COLUMN %1$I.view_cell_block.cluster IS 'system identifier of the cluster whose transactions the snapshot is about';
+        COMMENT ON COLUMN %1$I.view_cell_block.seal IS 'digest of what the table seal says and of its cells, which are right for that; NULL: not sealed';
+
+        CREATE TABLE %1$I.seal (
+            x bigint,
+            y bigint,
+            box occlusion.box3d NOT NULL,
+            content bytea NOT NULL,
+            PRIMARY KEY (x, y)
+        );
+        COMMENT ON TABLE %1$I.seal IS 'what the scene held when its view cells were sealed, in regions of 128 m; derived';
+        COMMENT ON COLUMN %1$I.seal.x IS 'number of the region along x';
+        COMMENT ON COLUMN %1$I.seal.y IS 'number of the region along y';
+        COMMENT ON COLUMN %1$I.seal.box IS 'box around all features and streets of the region';
+        COMMENT ON COLUMN %1$I.seal.content IS 'digest of them';
 
         CREATE TABLE %1$I.change (
             feature bigint,

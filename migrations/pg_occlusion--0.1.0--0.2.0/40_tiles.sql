@@ -4,6 +4,7 @@ DROP FUNCTION occlusion.make_city(text, integer, bigint, integer, integer);
 
 -- include sql/40_scene.sql
 -- include sql/45_tiles.sql
+-- include sql/46_replicas.sql
 -- include sql/50_city.sql
 -- include sql/70_queries.sql
 

@@ -19,6 +19,10 @@ const EROSION_MARGIN: f64 = 1e-3;
 /// overlay would be too coarse for [`EROSION_MARGIN`].
 const FARTHEST: f64 = 50_000.0;
 
+/// Steps in a metre of the grid on which what is taken away ends: walls that nearly coincide, as those of neighbours
+/// in rounded data do, take away the same. The overlay of many that nearly do may take for ever.
+const GRID: f64 = 1024.0;
+
 /// Heights of a group that are told apart differ by more than this, metres: in between, columns count as a
 /// little lower than they are.
 const STEP: f64 = 0.2;
@@ -122,13 +126,15 @@ fn without_border(solid: &MultiPolygon, cracks: &[Line], half: f64) -> MultiPoly
     solid.difference(&unary_union(&border))
 }
 
-/// All points of squares around those of an edge.
+/// All points of squares around those of an edge, and some more: the squares end on a grid.
 fn swept(edge: &Line, half: f64) -> Polygon {
+    let low = |value: f64| ((value - half) * GRID).floor() / GRID;
+    let high = |value: f64| ((value + half) * GRID).ceil() / GRID;
     let corners: MultiPoint = [edge.start, edge.end]
         .into_iter()
         .flat_map(|Coord { x, y }| {
-            [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-                .map(|(right, up)| (x + right * half, y + up * half))
+            let ([west, east], [south, north]) = ([low(x), high(x)], [low(y), high(y)]);
+            [(west, south), (east, south), (east, north), (west, north)]
         })
         .collect::<Vec<_>>()
         .into();
@@ -169,11 +175,11 @@ mod tests {
             column(at(0.0, 0.0), at(6.0, 10.0), 9.0),
             column(at(6.0, 0.0), at(12.0, 10.0), 7.0),
         ];
-        // 2 m less on each side, and a millimetre.
-        let both = (7.0, 47.97);
-        assert_eq!(areas(&eroded(&row, 2.0)), [(9.0, 11.98), both]);
-        assert_eq!(areas(&eroded(&row[..1], 2.0)), [(9.0, 11.98)]);
-        assert_eq!(areas(&eroded(&row, 4.0)), [(7.0, 7.99)]);
+        // 2 m less on each side, and two millimetres.
+        let both = (7.0, 47.95);
+        assert_eq!(areas(&eroded(&row, 2.0)), [(9.0, 11.97), both]);
+        assert_eq!(areas(&eroded(&row[..1], 2.0)), [(9.0, 11.97)]);
+        assert_eq!(areas(&eroded(&row, 4.0)), [(7.0, 7.98)]);
         assert_eq!(areas(&eroded(&row, 6.0)), []);
     }
 
@@ -186,8 +192,8 @@ mod tests {
             .footprint
             .interiors_push(yard.footprint.exterior().clone());
         hollow.footprint = hollow.footprint.orient(Direction::Default);
-        assert_eq!(areas(&eroded([&hollow], 1.0)), [(8.0, 639.84)]);
-        assert_eq!(areas(&eroded([&hollow, &yard], 1.0)), [(8.0, 783.89)]);
+        assert_eq!(areas(&eroded([&hollow], 1.0)), [(8.0, 639.69)]);
+        assert_eq!(areas(&eroded([&hollow, &yard], 1.0)), [(8.0, 783.78)]);
     }
 
     #[test]
@@ -197,6 +203,137 @@ mod tests {
             column([5.0, 5.0], [15.0, 15.0], 9.0),
         ];
         let found = areas(&eroded(&parts, 1.0));
-        assert_eq!(found, [(9.0, 63.97), (3.0, 323.93)]);
+        assert_eq!(found, [(9.0, 63.94), (3.0, 323.86)]);
+    }
+
+    /// Stepped columns of two houses, with coordinates rounded to 10 µm before the steps were found.
+    fn rounded_steps() -> Vec<SolidColumn> {
+        let steps: Vec<(f64, Vec<[f64; 2]>)> = vec![
+            (
+                11.953125000000002,
+                vec![
+                    [124.7815858827155, -125.81398929064015],
+                    [126.76235279064225, -124.86666561728524],
+                    [123.21743850786042, -117.454567571476],
+                    [121.23667159993369, -118.40189124483092],
+                ],
+            ),
+            (
+                12.351562500000002,
+                vec![
+                    [125.2767788827155, -125.57715697814015],
+                    [126.26715872814225, -125.10349686728524],
+                    [122.72224475103336, -117.69139946061074],
+                    [121.73186490560661, -118.16505957146565],
+                ],
+            ),
+            (
+                8.625,
+                vec![
+                    [121.11133000000001, -127.56933999999998],
+                    [124.9248, -135.54297],
+                    [134.24609, -131.08496],
+                    [130.43262, -123.11132999999998],
+                ],
+            ),
+            (
+                9.253906250000002,
+                vec![
+                    [122.36531643941929, -128.41941531461924],
+                    [125.61447527426068, -135.2131203549779],
+                    [133.55641275387492, -131.41480094816882],
+                    [132.99210356058072, -130.2348832056013],
+                    [129.74294515146, -123.44117905538718],
+                    [121.8010076718467, -127.23949846219578],
+                ],
+            ),
+            (
+                9.656250000000002,
+                vec![
+                    [123.1675539026546, -128.9632534212369],
+                    [126.05569489742246, -135.00210194505144],
+                    [133.11519407740434, -131.6258184114041],
+                    [132.18986609734543, -129.69104415229248],
+                    [129.30172580065374, -123.65219708809379],
+                    [122.24222662067335, -127.02848062174036],
+                ],
+            ),
+            (
+                10.058593750000002,
+                vec![
+                    [123.96979136588988, -129.50709152785456],
+                    [126.49691452058421, -134.79108353512495],
+                    [132.67397540093376, -131.8368358746394],
+                    [131.38762863411014, -129.14720509898365],
+                    [128.86050644984743, -123.86321512080042],
+                    [122.6834455695, -126.81746278128495],
+                ],
+            ),
+            (
+                10.460937500000002,
+                vec![
+                    [124.77202882912518, -130.0509296344722],
+                    [126.93813414374598, -134.58006512519847],
+                    [132.23275672446317, -132.04785333787473],
+                    [130.58539117087486, -128.60336604567485],
+                    [128.41928709904116, -124.07423315350704],
+                    [123.12466451832665, -126.60644494082953],
+                ],
+            ),
+            (
+                10.863281250000002,
+                vec![
+                    [125.57426629236048, -130.59476774108984],
+                    [127.37935376690774, -134.369046715272],
+                    [131.7915380479926, -132.25887080111],
+                    [129.78315370763954, -128.05952699236602],
+                    [127.97806774823488, -124.28525118621366],
+                    [123.56588346715328, -126.39542710037412],
+                ],
+            ),
+            (
+                11.265625000000002,
+                vec![
+                    [126.37650375559576, -131.13860584770748],
+                    [127.82057339006951, -134.15802830534554],
+                    [131.350319371522, -132.4698882643453],
+                    [128.98091624440426, -127.51568793905719],
+                    [127.53684839742859, -124.49626921892029],
+                    [124.00710241597993, -126.1844092599187],
+                ],
+            ),
+            (
+                11.667968750000002,
+                vec![
+                    [127.17874121883105, -131.68244395432512],
+                    [128.26179301323128, -133.94700989541906],
+                    [130.9091006950514, -132.68090572758058],
+                    [128.17867878116897, -126.97184888574837],
+                    [127.0956290466223, -124.70728725162692],
+                    [124.44832136480659, -125.97339141946325],
+                ],
+            ),
+        ];
+        let column = |(top, ring): (f64, Vec<[f64; 2]>)| SolidColumn {
+            footprint: Polygon::new(ring.into(), Vec::new()).orient(Direction::Default),
+            bottom: 0.0,
+            top,
+            grounded: true,
+        };
+        steps.into_iter().map(column).collect()
+    }
+
+    #[test]
+    fn walls_that_nearly_coincide_are_eroded_soon() {
+        let (send, receive) = std::sync::mpsc::channel();
+        // In a thread of its own: an overlay that does not end would keep the test from failing.
+        std::thread::spawn(move || {
+            let columns = rounded_steps();
+            let counts = [2.0, 1.0, 0.5].map(|half| eroded(&columns, half).len());
+            send.send(counts)
+        });
+        let patience = std::time::Duration::from_secs(60);
+        let counts = receive.recv_timeout(patience).expect("it ends");
+        assert!(counts.iter().all(|&count| count > 0), "{counts:?}");
     }
 }

@@ -57,10 +57,11 @@ pub fn point_sql([x, y, z]: [f64; 3]) -> String {
     format!("'POINT({x:?} {y:?} {z:?})'::occlusion.point3d")
 }
 
-/// All numbers after the first parenthesis.
+/// All numbers from the first parenthesis to the last.
 fn numbers(text: &str) -> Vec<f64> {
     let is_part = |c: char| c.is_ascii_digit() || "+-.eE".contains(c);
     let (_, text) = text.split_once('(').unwrap_or_default();
+    let (text, _) = text.rsplit_once(')').unwrap_or_default();
     let words = text.split(|c| !is_part(c)).filter(|word| !word.is_empty());
     words.map(|word| word.parse().expect("a number")).collect()
 }

@@ -23,8 +23,7 @@ BEGIN
         EXECUTE format('SELECT (SELECT count(*) FROM %1$I.tile), (SELECT count(*) FROM %1$I.edit)', scene)
         INTO tiles, edits;
     END IF;
-    IF has_cells THEN
-        PERFORM occlusion.require_all_cells(scene);
+    IF has_cells AND occlusion.hidden_source(scene) IS NULL THEN
         EXECUTE format($q$
             SELECT count(*), count(*) FILTER (WHERE b.done AND b.cluster = $1 AND %2$s)
             FROM %1$I.view_cell_block AS b
@@ -43,4 +42,4 @@ BEGIN
 END
 $$;
 COMMENT ON FUNCTION occlusion.scene_status(text) IS
-    'what a scene holds, and what is up to date: edits since its tiles were packed, squares whose view cells are right and what share these are, changes that are logged, when view cells were computed last; NULL where a scene of an older version lacks a table';
+    'what a scene holds, and what is up to date: edits since its tiles were packed, squares whose view cells are right and what share these are, changes that are logged, when view cells were computed last; NULL where a scene of an older version lacks a table, or where row security hides from the caller what cells rest on';

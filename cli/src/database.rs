@@ -148,6 +148,11 @@ pub fn quoted(name: &str) -> String {
     format!("\"{}\"", name.replace('"', "\"\""))
 }
 
+/// A text in SQL.
+pub fn literal(text: &str) -> String {
+    format!("'{}'", text.replace('\'', "''"))
+}
+
 /// Rows on their way into a table, by binary COPY.
 pub struct Copy<'a>(BinaryCopyInWriter<'a>);
 

@@ -24,6 +24,9 @@ static AUTO_REFRESH: GucSetting<bool> = GucSetting::<bool>::new(false);
 /// How long it waits for more edits, milliseconds.
 static REFRESH_DELAY: GucSetting<i32> = GucSetting::<i32>::new(1000);
 
+/// Whether it is counted how each scene is asked.
+static TRACK_SCENES: GucSetting<bool> = GucSetting::<bool>::new(true);
+
 /// Longest delay, a day, milliseconds.
 const LONGEST_DELAY: i32 = 24 * 60 * 60 * 1000;
 
@@ -96,6 +99,14 @@ pub fn register() {
         GucContext::Suset,
         GucFlags::UNIT_MS,
     );
+    GucRegistry::define_bool_guc(
+        c"pg_occlusion.track_scenes",
+        c"Counts how each scene is asked and answered.",
+        c"What was counted is in the view stat_scenes.",
+        &TRACK_SCENES,
+        GucContext::Suset,
+        GucFlags::default(),
+    );
 }
 
 /// Whether answers leave out what occlusion volumes hide.
@@ -116,6 +127,11 @@ pub fn refreshes_by_itself() -> bool {
 /// How long it waits for more edits.
 pub fn refresh_delay() -> Duration {
     Duration::from_millis(REFRESH_DELAY.get().unsigned_abs().into())
+}
+
+/// Whether it is counted how each scene is asked.
+pub fn tracks_scenes() -> bool {
+    TRACK_SCENES.get()
 }
 
 /// Bytes of the tiles that a backend keeps.

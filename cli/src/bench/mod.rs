@@ -1,10 +1,12 @@
 //! `occlusion bench`: measures this extension against others.
 
 mod cells;
+mod edits;
 mod format;
 mod index;
 #[cfg(feature = "embree")]
 mod item_buffer;
+mod observers;
 mod point;
 mod quantile;
 mod surroundings;
@@ -20,7 +22,8 @@ const EXAMPLES: &str = "Examples:
   occlusion bench index --rows 100000
   occlusion bench index --format markdown
   occlusion bench point delft --range 500
-  occlusion bench cells delft --cells 20";
+  occlusion bench cells delft --cells 20
+  occlusion bench edits town --rows 1 --rows 1000";
 
 /// Measures this extension against others, in one run
 #[derive(Args, Debug)]
@@ -35,6 +38,7 @@ enum Benchmark {
     Index(index::Index),
     Point(point::Point),
     Cells(cells::Cells),
+    Edits(edits::Edits),
 }
 
 impl Bench {
@@ -44,6 +48,7 @@ impl Bench {
             Benchmark::Index(index) => index.run(),
             Benchmark::Point(point) => point.run(),
             Benchmark::Cells(cells) => cells.run(),
+            Benchmark::Edits(edits) => edits.run(),
         }
     }
 }

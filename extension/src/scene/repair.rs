@@ -81,9 +81,7 @@ impl Blocks {
         let removals = self.removals(block)?;
         let region = ViewRegion::new(streets::near(scene, Moment::Now, &block.area));
         let cells = self.concerned_cells(block, &removals);
-        let Some(eyes) = region.filled(&block.area) else {
-            return None;
-        };
+        let eyes = region.filled(&block.area)?;
         let around = surroundings.around(&eyes, block.asked.range);
         let all = around.scene.features().map(|at| around.scene.feature(at).0);
         let mut slots = surroundings.slots(&all.collect());

@@ -1,13 +1,21 @@
 //! How often scenes were asked, and how they were answered.
 
+use crate::settings;
 use crate::shared::{self, Count, Place};
 use pgrx::iter::TableIterator;
 use pgrx::pg_sys::Oid;
 use pgrx::{name, pg_extern};
 
+/// Where a scene is counted; `None` if it is not.
+fn place(namespace: Oid) -> Option<&'static Place> {
+    settings::tracks_scenes()
+        .then(|| Place::of(namespace))
+        .flatten()
+}
+
 /// Counts one answer.
 pub fn count_answer(namespace: Oid, is_by_cell: bool, is_by_volumes: bool, features: usize) {
-    let Some(place) = Place::of(namespace) else {
+    let Some(place) = place(namespace) else {
         return;
     };
     let kind = if is_by_cell {
@@ -24,7 +32,7 @@ pub fn count_answer(namespace: Oid, is_by_cell: bool, is_by_volumes: bool, featu
 
 /// Counts one question for a visible set.
 pub fn count_set(namespace: Oid, is_known: bool) {
-    if let Some(place) = Place::of(namespace) {
+    if let Some(place) = place(namespace) {
         let kind = if is_known {
             Count::Sets
         } else {

@@ -182,9 +182,13 @@ impl Tables {
 
     /// Whether no row security keeps view cells, or what they rest on, from the current user.
     pub fn shows_all_of_cells(&self) -> bool {
-        let sources = SOURCES.into_iter().chain([c"street"]);
-        let read = sources.map(|name| relation(self.namespace, name));
-        read.chain(self.cells()).all(sees_all_rows)
+        self.shows_all_of_sources() && self.cells().into_iter().all(sees_all_rows)
+    }
+
+    /// Whether no row security keeps from the current user any of what volumes and cells are computed from.
+    fn shows_all_of_sources(&self) -> bool {
+        let mut sources = SOURCES.into_iter().chain([c"street"]);
+        sources.all(|name| sees_all_rows(relation(self.namespace, name)))
     }
 
     fn cells(&self) -> [Oid; 3] {
@@ -239,9 +243,10 @@ impl Tables {
         has_pages(self.edit)
     }
 
-    /// Whether there may be occlusion volumes.
+    /// Whether there may be occlusion volumes that may be relied on: not where row security keeps from the current
+    /// user what they were computed from, since that would be told by what it hides.
     pub fn has_volumes(&self) -> bool {
-        has_pages(relation(self.namespace, c"occlusion_volume"))
+        has_pages(relation(self.namespace, c"occlusion_volume")) && self.shows_all_of_sources()
     }
 
     /// Keeps others from editing until the end of the transaction; with `wait` false only if nobody is

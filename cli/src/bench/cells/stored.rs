@@ -10,7 +10,7 @@ use postgres::{Client, Statement};
 use super::window::Window;
 use crate::bench::quantile::quantile;
 use crate::bench::table::Table;
-use crate::database::quoted;
+use crate::database::{literal, quoted};
 use crate::failure::Failure;
 use crate::sql_types::Point3d;
 
@@ -106,7 +106,7 @@ struct Call {
 
 /// Those that are measured.
 fn calls(client: &mut Client, scene: &str, range: f64) -> Result<Vec<Call>, Failure> {
-    let scene = format!("'{}'", scene.replace('\'', "''"));
+    let scene = literal(scene);
     let seen = |range: f64| {
         format!(
             "v.feature_id, v.class FROM occlusion.visible_features({scene}, $1, {range:?}) AS v"

@@ -2,7 +2,7 @@
 
 use postgres::Client;
 
-use super::observers::SCHEMA;
+use super::SCHEMA;
 use crate::database::quoted;
 use crate::failure::Failure;
 

@@ -1,7 +1,6 @@
 //! `occlusion bench point`: what can be seen from a point, answered live, and what others answer.
 
 mod contender;
-mod observers;
 mod race;
 mod table;
 #[cfg(feature = "embree")]
@@ -12,6 +11,7 @@ use clap::builder::RangedU64ValueParser;
 use postgres::Client;
 
 use crate::bench::format::Format;
+use crate::bench::observers;
 use crate::bench::table::Table;
 use crate::database::Database;
 use crate::failure::{EXIT_STATUS, Failure};
@@ -19,6 +19,9 @@ use crate::terminal;
 #[cfg(feature = "embree")]
 use crate::terminal::BAD;
 use contender::Contender;
+
+/// Schema of all that the benchmark makes.
+const SCHEMA: &str = "occlusion_bench_point";
 
 const EXAMPLES: &str = "Examples:
   occlusion bench point city --database postgresql://me@localhost/scratch
@@ -85,7 +88,7 @@ impl Point {
         let mut is_sound = true;
         for scene in &self.scenes {
             let spinner = terminal::spinner("making observers and rivals' tables");
-            observers::place(&mut client, scene, self.observers, self.seed)?;
+            observers::place(&mut client, SCHEMA, scene, self.observers, self.seed)?;
             if has_postgis {
                 contender::prepare(&mut client, scene)?;
             }

@@ -10,8 +10,8 @@ use embree::Device;
 use indicatif::ProgressBar;
 use postgres::{Client, Row};
 
+use super::SCHEMA;
 use super::contender::{Claim, Contender};
-use super::observers::SCHEMA;
 use super::race::milliseconds;
 use crate::bench::item_buffer::{ItemBuffer, Sightings};
 use crate::bench::surroundings::Surroundings;

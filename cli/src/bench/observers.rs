@@ -5,16 +5,19 @@ use postgres::Client;
 use crate::database::quoted;
 use crate::failure::Failure;
 
-/// Schema of all that the benchmark makes.
-pub const SCHEMA: &str = "occlusion_bench_point";
-
-/// Makes the table of observers anew: points of street polygons that a seed chooses.
-pub fn place(client: &mut Client, scene: &str, count: usize, seed: i64) -> Result<(), Failure> {
+/// Makes a schema with a table of observers anew: points of street polygons that a seed chooses.
+pub fn place(
+    client: &mut Client,
+    schema: &str,
+    scene: &str,
+    count: usize,
+    seed: i64,
+) -> Result<(), Failure> {
     let streets = format!("{}.street", quoted(scene));
     client.batch_execute(&format!(
-        "DROP SCHEMA IF EXISTS {SCHEMA} CASCADE;
-         CREATE SCHEMA {SCHEMA};
-         CREATE UNLOGGED TABLE {SCHEMA}.observer AS
+        "DROP SCHEMA IF EXISTS {schema} CASCADE;
+         CREATE SCHEMA {schema};
+         CREATE UNLOGGED TABLE {schema}.observer AS
          WITH street AS (
              SELECT id, area, (eye_low + eye_high) / 2 AS z, box(area[1]) AS b FROM {streets}
              ORDER BY hashint8extended(id, {seed}) LIMIT {count} * 2
@@ -33,11 +36,11 @@ pub fn place(client: &mut Client, scene: &str, count: usize, seed: i64) -> Resul
          SELECT (row_number() OVER (ORDER BY hashint8extended(id, {seed} + 3)) - 1)::integer AS id,
                 p[0] AS x, p[1] AS y, z, occlusion.point3d(p[0], p[1], z) AS eye
          FROM candidate ORDER BY 1 LIMIT {count};
-         ALTER TABLE {SCHEMA}.observer ADD PRIMARY KEY (id);
-         ANALYZE {SCHEMA}.observer"
+         ALTER TABLE {schema}.observer ADD PRIMARY KEY (id);
+         ANALYZE {schema}.observer"
     ))?;
     let found: i64 = client
-        .query_one(&format!("SELECT count(*) FROM {SCHEMA}.observer"), &[])?
+        .query_one(&format!("SELECT count(*) FROM {schema}.observer"), &[])?
         .get(0);
     if found == 0 {
         return Err(Failure::Unready(format!(

@@ -1,0 +1,92 @@
+//! What it costs to count queries.
+
+use std::time::Instant;
+
+use indicatif::ProgressBar;
+use postgres::Client;
+
+use super::SCHEMA;
+use crate::bench::quantile::quantile;
+use crate::bench::table::Table;
+use crate::database::literal;
+use crate::failure::Failure;
+use crate::sql_types::Point3d;
+
+/// Milliseconds of a question, counted and not.
+struct Trial {
+    name: &'static str,
+    question: String,
+    times: [Vec<f64>; 2],
+}
+
+/// Asks all observers in rounds, each counted and not in turn.
+pub fn measure(
+    client: &mut Client,
+    scene: &str,
+    range: f64,
+    rounds: usize,
+    bar: &ProgressBar,
+) -> Result<Table, Failure> {
+    let observers = client.query(
+        &format!("SELECT eye FROM {SCHEMA}.observer ORDER BY id"),
+        &[],
+    )?;
+    let observers: Vec<Point3d> = observers.iter().map(|row| row.get(0)).collect();
+    let scene = literal(scene);
+    let mut trials = [
+        (
+            "visible_features",
+            format!("SELECT count(*) FROM occlusion.visible_features({scene}, $1, {range:?})"),
+        ),
+        (
+            "visible_set",
+            format!("SELECT count(*) FROM occlusion.visible_set({scene}, $1)"),
+        ),
+    ]
+    .map(|(name, question)| Trial {
+        name,
+        question,
+        times: Default::default(),
+    });
+    for trial in &mut trials {
+        let statement = client.prepare(&trial.question)?;
+        // Warms the caches.
+        for observer in &observers {
+            client.query_one(&statement, &[observer])?;
+        }
+        for round in 0..rounds {
+            for turn in 0..2 {
+                let is_counted = (round + turn) % 2 == 0;
+                client.batch_execute(&format!("SET pg_occlusion.track_scenes = {is_counted}"))?;
+                for observer in &observers {
+                    let began = Instant::now();
+                    client.query_one(&statement, &[observer])?;
+                    let time = began.elapsed().as_secs_f64() * 1e3;
+                    trial.times[usize::from(!is_counted)].push(time);
+                }
+            }
+            bar.inc(1);
+        }
+    }
+    client.batch_execute("RESET pg_occlusion.track_scenes")?;
+    Ok(Table {
+        heading: vec!["query", "counted, ms", "not counted", "ratio"],
+        rows: trials.iter_mut().map(Trial::row).collect(),
+        remarks: vec![format!(
+            "Median of {} questions each, as the client sees them.",
+            rounds * observers.len()
+        )],
+    })
+}
+
+impl Trial {
+    fn row(&mut self) -> Vec<String> {
+        let [counted, not] = self.times.each_mut().map(|times| quantile(times, 0.5));
+        vec![
+            self.name.to_owned(),
+            format!("{counted:.4}"),
+            format!("{not:.4}"),
+            format!("{:.3}", counted / not),
+        ]
+    }
+}

@@ -41,9 +41,9 @@ FROM pg_depend AS d
 LEFT JOIN pg_description AS t ON t.classoid = d.classid AND t.objoid = d.objid AND t.objsubid = 0
 WHERE d.refclassid = 'pg_extension'::regclass AND d.deptype = 'e' AND t.description IS NULL
   AND d.refobjid = (SELECT oid FROM pg_extension WHERE extname = 'pg_occlusion')
-  -- arrays and families come with their types and classes; input, output and support functions
+  -- arrays, rows and families come with their types, views and classes; input, output and support functions
   -- belong to them, like those of core, and are called by nobody
-  AND NOT (d.classid = 'pg_type'::regclass AND EXISTS (SELECT FROM pg_type WHERE oid = d.objid AND typelem <> 0))
+  AND NOT (d.classid = 'pg_type'::regclass AND EXISTS (SELECT FROM pg_type WHERE oid = d.objid AND (typelem <> 0 OR typrelid <> 0)))
   AND d.classid <> 'pg_opfamily'::regclass
   AND NOT (d.classid = 'pg_proc'::regclass AND EXISTS (
       SELECT FROM pg_proc WHERE oid = d.objid AND proname ~ '(_in|_out|_recv|_send|3d_(gist|spgist|brin)_[a-z_]+)$'))

@@ -37,6 +37,8 @@ SELECT attrelid::regclass AS catalog, attname::text AS field
 UNION ALL
 SELECT 'pg_proc', 'prosrc'
 UNION ALL
+SELECT 'pg_attribute', 'attoptions' -- for columns of views some servers keep a number of their own there
+UNION ALL
 SELECT 'pg_class', unnest('{relfilenode,relpages,reltuples,relallvisible,relallfrozen,relfrozenxid,relminmxid}'::text[]);
 
 CREATE FUNCTION pg_temp.name(catalog regclass, number text) RETURNS text LANGUAGE sql

@@ -1,5 +1,6 @@
 //! [`Importer`], a scene that is being filled.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use engine::ColumnOptions;
@@ -13,7 +14,7 @@ use super::names::Names;
 use super::report::Report;
 use super::solid::Solid;
 use super::tally::Tally;
-use super::{rows, streets};
+use super::{rows, streets, update};
 use crate::database::quoted;
 use crate::failure::Failure;
 use crate::terminal;
@@ -23,20 +24,24 @@ pub struct Importer<'a> {
     transaction: Transaction<'a>,
     scene: &'a str,
     options: ColumnOptions,
+    updates: bool,
     frame: Frame,
     names: Names,
+    /// Files whose remarks are those of this import.
+    sources: HashSet<String>,
     ids: Vec<i64>,
     roads: Vec<formats::Street>,
     tally: Tally,
 }
 
 impl<'a> Importer<'a> {
-    /// Makes sure that the scene is there.
+    /// Makes sure that the scene is there. If it `updates`, features of the scene may be replaced.
     pub fn begin(
         mut transaction: Transaction<'a>,
         scene: &'a str,
         srid: Option<i32>,
         options: ColumnOptions,
+        updates: bool,
     ) -> Result<Self, Failure> {
         let exists = "SELECT FROM pg_catalog.pg_namespace WHERE nspname = $1";
         let mut known = None;
@@ -50,15 +55,20 @@ impl<'a> Importer<'a> {
         } else {
             transaction.execute("SELECT occlusion.create_scene($1)", &[&scene])?;
         }
+        if updates {
+            update::prepare(&mut transaction, scene)?;
+        }
         Ok(Self {
             transaction,
             scene,
             options,
+            updates,
             frame: Frame::new(srid, known),
             names: Names::default(),
+            sources: HashSet::new(),
             ids: Vec::new(),
             roads: Vec::new(),
-            tally: Tally::default(),
+            tally: Tally::of(updates),
         })
     }
 
@@ -68,10 +78,11 @@ impl<'a> Importer<'a> {
     }
 
     /// Writes a batch of a file.
-    pub fn add(&mut self, path: &Path, batch: SceneDescription) -> Result<(), Failure> {
+    pub fn add(&mut self, path: &Path, mut batch: SceneDescription) -> Result<(), Failure> {
         self.frame.agree(batch.srid, path)?;
-        self.names
-            .take(&mut self.transaction, self.scene, path, &batch.features)?;
+        self.names.take(path, &batch.features)?;
+        let source = path.display().to_string();
+        self.forget_remarks(&source)?;
         let options = &self.options;
         let solid = |feature: &Feature| {
             Solid::of(feature, options).map_err(|problem| {
@@ -79,20 +90,73 @@ impl<'a> Importer<'a> {
                 Failure::Input(format!("{place}: {problem}"))
             })
         };
-        let solids: Vec<Solid> = batch
+        let mut solids: Vec<Solid> = batch
             .features
             .par_iter()
             .map(solid)
             .collect::<Result<_, _>>()?;
-        let ids = rows::features(&mut self.transaction, self.scene, &batch.features, &solids)?;
-        rows::shapes(&mut self.transaction, self.scene, &ids, &solids)?;
-        rows::models(&mut self.transaction, self.scene, &ids, &solids)?;
-        let source = path.display().to_string();
+        if self.updates {
+            self.update(&mut batch.features, &mut solids)?;
+        } else {
+            self.insert(&batch.features, &solids)?;
+        }
         let (skipped, changed) = (&batch.skipped, &batch.changed);
         rows::remarks(&mut self.transaction, self.scene, &source, skipped, changed)?;
-        self.ids.extend(ids);
         self.tally.add(&batch, &solids);
         self.roads.extend(batch.streets);
+        Ok(())
+    }
+
+    /// Remarks about a file that is imported once more are those of this time.
+    fn forget_remarks(&mut self, source: &str) -> Result<(), Failure> {
+        if self.updates && self.sources.insert(source.to_owned()) {
+            let statement = format!(
+                "DELETE FROM {}.import_remark WHERE source = $1",
+                quoted(self.scene)
+            );
+            self.transaction.execute(&statement, &[&source])?;
+        }
+        Ok(())
+    }
+
+    /// Writes features, none of which may be there.
+    fn insert(&mut self, features: &[Feature], solids: &[Solid]) -> Result<(), Failure> {
+        let (transaction, scene) = (&mut self.transaction, self.scene);
+        let known = rows::known(transaction, scene, features)?;
+        if let Some(name) = known.keys().min() {
+            return Err(Failure::Input(format!(
+                "scene \"{scene}\" holds {} of these features already, such as \"{name}\"\n  \
+                 hint: --update replaces those that changed, --replace drops the scene first",
+                known.len()
+            )));
+        }
+        let ids = rows::new_ids(transaction, scene, features.len())?;
+        let first_slot = rows::first_slot(transaction, scene)?;
+        rows::features(transaction, scene, &ids, first_slot, features, solids)?;
+        rows::shapes(transaction, scene, &ids, solids)?;
+        rows::models(transaction, scene, &ids, solids)?;
+        self.ids.extend(ids);
+        Ok(())
+    }
+
+    /// Writes features that are new or changed, and leaves no others in the batch.
+    fn update(
+        &mut self,
+        features: &mut Vec<Feature>,
+        solids: &mut Vec<Solid>,
+    ) -> Result<(), Failure> {
+        let outcome = update::write(&mut self.transaction, self.scene, features, solids)?;
+        self.tally.count(&outcome);
+        let is_written: Vec<bool> = outcome
+            .ids
+            .iter()
+            .map(|id| !outcome.same.contains(id))
+            .collect();
+        retain(features, &is_written);
+        retain(solids, &is_written);
+        let mut ids = outcome.ids;
+        retain(&mut ids, &is_written);
+        self.ids.extend(ids);
         Ok(())
     }
 
@@ -108,7 +172,9 @@ impl<'a> Importer<'a> {
         let hanging = ground::settle(&mut self.transaction, self.scene, &self.ids)?;
         self.tally.take_down(&hanging);
         let mut made = 0;
-        if !self.roads.is_empty() {
+        // Streets of a scene that is updated stay: nobody knows which of them came from these files.
+        let keeps_streets = self.updates && streets::are_any(&mut self.transaction, self.scene)?;
+        if !self.roads.is_empty() && !keeps_streets {
             let streets = streets::of_roads(&mut self.transaction, self.scene, &self.roads)?;
             made = streets.len();
             let rows: Vec<_> = streets
@@ -129,7 +195,7 @@ impl<'a> Importer<'a> {
             scene: self.scene,
             srid: self.frame.srid(),
             tally: self.tally,
-            streets: made,
+            streets: (!keeps_streets).then_some(made),
             open_space,
             seconds: 0.0,
         })
@@ -163,6 +229,12 @@ impl<'a> Importer<'a> {
             .transaction
             .batch_execute(&format!("ANALYZE {tables}"))?)
     }
+}
+
+/// Keeps those of which `is_kept` says so.
+fn retain<T>(all: &mut Vec<T>, is_kept: &[bool]) {
+    let mut is_kept = is_kept.iter();
+    all.retain(|_| is_kept.next() == Some(&true));
 }
 
 /// Coordinates of two frames do not mix; an unknown frame goes with any.

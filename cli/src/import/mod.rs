@@ -13,6 +13,7 @@ mod rows;
 mod solid;
 mod streets;
 mod tally;
+mod update;
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -31,7 +32,8 @@ use memory::Memory;
 const EXAMPLES: &str = "Examples:
   occlusion import delft.city.jsonl --scene delft
   occlusion import helsinki.osm.pbf --scene helsinki
-  occlusion import north.json south.glb --scene town --srid 28992 --replace";
+  occlusion import north.json south.glb --scene town --srid 28992 --replace
+  occlusion import delft-2026.city.jsonl --scene delft --update";
 
 /// Reads city models into a scene
 ///
@@ -53,8 +55,12 @@ pub struct Import {
     #[arg(long, value_name = "N")]
     srid: Option<i32>,
     /// Drop the scene first, with all that is in it
-    #[arg(long)]
+    #[arg(long, conflicts_with = "update")]
     replace: bool,
+    /// Features of the scene that the files hold, too, take their new shapes and keep their numbers; those that are as
+    /// they were are not touched, others and the streets stay
+    #[arg(long)]
+    update: bool,
     /// Solid columns of one feature at the most: fewer take less room, more hide more
     #[arg(long, value_name = "N", default_value_t = ColumnOptions::default().most)]
     most_columns: usize,
@@ -81,7 +87,9 @@ impl Import {
             drop_scene(&mut transaction, &self.scene)?;
         }
         let bar = terminal::bytes(files.iter().map(|file| file.bytes).sum());
-        let mut importer = Importer::begin(transaction, &self.scene, self.srid, self.columns()?)?;
+        let options = self.columns()?;
+        let mut importer =
+            Importer::begin(transaction, &self.scene, self.srid, options, self.update)?;
         for file in &mut files {
             let path = file.path.clone();
             let mut failure = None;

@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter};
 
 use engine::Box3d;
 
-use super::tally::{Group, Tally};
+use super::tally::{Group, Tally, Update};
 use crate::terminal::{FAINT, GOOD, grouped};
 
 /// What came of an import.
@@ -16,8 +16,8 @@ pub struct Report<'a> {
     pub srid: Option<i32>,
     /// What was counted.
     pub tally: Tally,
-    /// Streets made from roads.
-    pub streets: usize,
+    /// Streets made from roads; `None` if those that were there stay.
+    pub streets: Option<usize>,
     /// Streets made from open space, if they were.
     pub open_space: Option<usize>,
     /// How long it took.
@@ -27,15 +27,7 @@ pub struct Report<'a> {
 impl Display for Report<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let tally = &self.tally;
-        let features: usize = tally.classes.values().sum();
-        writeln!(
-            f,
-            "{GOOD}imported{GOOD:#} {} features into {} in {:.1} s, {} a second",
-            grouped(features),
-            self.scene,
-            self.seconds,
-            grouped((features as f64 / self.seconds.max(1e-3)) as usize)
-        )?;
+        self.write_outcome(f)?;
         for file in &tally.files {
             line(f, "from", file)?;
         }
@@ -50,18 +42,12 @@ impl Display for Report<'_> {
             let text = format!("{} rings without area", grouped(tally.degenerate_rings));
             line(f, "dropped", &text)?;
         }
-        match self.open_space {
-            Some(pieces) => line(
-                f,
-                "streets",
-                &format!("none: open space in {pieces} pieces"),
-            )?,
-            None => line(
-                f,
-                "streets",
-                &format!("{} pieces of roads", grouped(self.streets)),
-            )?,
-        }
+        let streets = match (self.open_space, self.streets) {
+            (Some(pieces), _) => format!("none: open space in {pieces} pieces"),
+            (None, Some(streets)) => format!("{} pieces of roads", grouped(streets)),
+            (None, None) => "as they were".to_owned(),
+        };
+        line(f, "streets", &streets)?;
         if let Some(extent) = &tally.extent {
             line(f, "extent", &extent_text(extent))?;
         }
@@ -77,6 +63,26 @@ impl Display for Report<'_> {
 }
 
 impl Report<'_> {
+    fn write_outcome(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let written: usize = self.tally.classes.values().sum();
+        let (scene, seconds) = (self.scene, self.seconds);
+        match &self.tally.update {
+            None => writeln!(
+                f,
+                "{GOOD}imported{GOOD:#} {} features into {scene} in {seconds:.1} s, {} a second",
+                grouped(written),
+                grouped((written as f64 / seconds.max(1e-3)) as usize)
+            ),
+            Some(Update { new, same }) => writeln!(
+                f,
+                "{GOOD}updated{GOOD:#} {scene} in {seconds:.1} s: {} new, {} changed, {} as they were",
+                grouped(*new),
+                grouped(written - new),
+                grouped(*same)
+            ),
+        }
+    }
+
     fn write_solids(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let tally = &self.tally;
         let mut text = format!(

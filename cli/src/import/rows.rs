@@ -1,5 +1,7 @@
 //! Writing a batch of features.
 
+use std::collections::HashMap;
+
 use engine::{Box3d, SolidColumn};
 use formats::{Changed, Feature, Skipped};
 use geo::Polygon;
@@ -13,21 +15,56 @@ use crate::failure::Failure;
 use crate::scene::rings;
 use crate::sql_types::{self, Ring};
 
-/// Writes the features; returns their numbers.
-pub fn features(
+/// Numbers of the features of a scene that have the names of others.
+pub fn known(
     transaction: &mut Transaction<'_>,
     scene: &str,
     features: &[Feature],
-    solids: &[Solid],
+) -> Result<HashMap<String, i64>, Failure> {
+    let names: Vec<&str> = features
+        .iter()
+        .map(|feature| feature.name.as_str())
+        .collect();
+    let statement = format!(
+        "SELECT name, id FROM {}.feature WHERE name = ANY ($1)",
+        quoted(scene)
+    );
+    let rows = transaction.query(&statement, &[&names])?;
+    Ok(rows.iter().map(|row| (row.get(0), row.get(1))).collect())
+}
+
+/// Numbers for new features.
+pub fn new_ids(
+    transaction: &mut Transaction<'_>,
+    scene: &str,
+    count: usize,
 ) -> Result<Vec<i64>, Failure> {
-    let schema = quoted(scene);
     let next =
         "SELECT nextval(pg_get_serial_sequence($1, 'id')) FROM generate_series(1, $2::bigint)";
-    let count = i64::try_from(solids.len()).unwrap_or(i64::MAX);
-    let ids = transaction.query(next, &[&format!("{schema}.feature"), &count])?;
-    let ids: Vec<i64> = ids.iter().map(|row| row.get(0)).collect();
-    let last = format!("SELECT coalesce(max(slot) + 1, 0) FROM {schema}.feature");
-    let first_slot: i32 = transaction.query_one(&last, &[])?.get(0);
+    let table = format!("{}.feature", quoted(scene));
+    let count = i64::try_from(count).unwrap_or(i64::MAX);
+    let ids = transaction.query(next, &[&table, &count])?;
+    Ok(ids.iter().map(|row| row.get(0)).collect())
+}
+
+/// The first slot that is free.
+pub fn first_slot(transaction: &mut Transaction<'_>, scene: &str) -> Result<i32, Failure> {
+    let last = format!(
+        "SELECT coalesce(max(slot) + 1, 0) FROM {}.feature",
+        quoted(scene)
+    );
+    Ok(transaction.query_one(&last, &[])?.get(0))
+}
+
+/// Writes the features, with these numbers and slots from the first one on.
+pub fn features(
+    transaction: &mut Transaction<'_>,
+    scene: &str,
+    ids: &[i64],
+    first_slot: i32,
+    features: &[Feature],
+    solids: &[Solid],
+) -> Result<(), Failure> {
     let envelopes: Vec<Box3d> = solids.iter().map(|solid| solid.envelope).collect();
     let slots = morton::ranks(&envelopes);
     let columns = "id, name, class, envelope, slot, outline, attributes";
@@ -49,8 +86,7 @@ pub fn features(
             &feature.attributes,
         ])?;
     }
-    copy.finish()?;
-    Ok(ids)
+    copy.finish()
 }
 
 /// Writes meshes and what hides.

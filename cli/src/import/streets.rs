@@ -91,13 +91,18 @@ fn mesh(vertices: Vec<f64>, triangles: Vec<i32>) -> TriangleMesh {
     }
 }
 
+/// Whether a scene has streets.
+pub fn are_any(transaction: &mut Transaction<'_>, scene: &str) -> Result<bool, Failure> {
+    let statement = format!("SELECT EXISTS (SELECT FROM {}.street)", quoted(scene));
+    Ok(transaction.query_one(&statement, &[])?.get(0))
+}
+
 /// Makes a view region from the open space of a scene that has no streets; returns its size.
 pub fn open_space(
     transaction: &mut Transaction<'_>,
     scene: &str,
 ) -> Result<Option<usize>, Failure> {
-    let statement = format!("SELECT EXISTS (SELECT FROM {}.street)", quoted(scene));
-    if transaction.query_one(&statement, &[])?.get(0) {
+    if are_any(transaction, scene)? {
         return Ok(None);
     }
     let statement = "SELECT occlusion.generate_view_region($1)";

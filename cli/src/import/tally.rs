@@ -7,6 +7,7 @@ use formats::SceneDescription;
 
 use super::ground::Hanging;
 use super::solid::Solid;
+use super::update::Outcome;
 
 /// Most names kept as examples of a group.
 pub const EXAMPLES: usize = 5;
@@ -29,6 +30,15 @@ impl Group {
     }
 }
 
+/// What an update has found of the features of its files.
+#[derive(Debug, Default, PartialEq)]
+pub struct Update {
+    /// Features that were not there.
+    pub new: usize,
+    /// Features that are as they were.
+    pub same: usize,
+}
+
 /// What an import has written so far.
 #[derive(Debug, Default)]
 pub struct Tally {
@@ -36,7 +46,9 @@ pub struct Tally {
     pub files: Vec<String>,
     /// Whom to credit, each once.
     pub attributions: Vec<String>,
-    /// Features by class.
+    /// What was there already; `None` if nothing may have been.
+    pub update: Option<Update>,
+    /// Features that were written, by class.
     pub classes: BTreeMap<String, usize>,
     /// Features that hide others.
     pub solid: usize,
@@ -61,6 +73,22 @@ pub struct Tally {
 }
 
 impl Tally {
+    /// Before anything; of an import that updates a scene, or does not.
+    pub fn of(updates: bool) -> Self {
+        Self {
+            update: updates.then(Update::default),
+            ..Self::default()
+        }
+    }
+
+    /// Counts what became of a batch of an update.
+    pub fn count(&mut self, outcome: &Outcome) {
+        if let Some(update) = &mut self.update {
+            update.new += outcome.new.len();
+            update.same += outcome.same.len();
+        }
+    }
+
     /// Counts a batch.
     pub fn add(&mut self, batch: &SceneDescription, solids: &[Solid]) {
         if let Some(attribution) = &batch.attribution

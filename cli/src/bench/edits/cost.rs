@@ -17,12 +17,12 @@ const EDITED: [&str; 4] = ["feature", "solid_column", "inner_envelope", "mesh"];
 /// An edit of features that `$1` numbers, in a schema `{0}`.
 const KINDS: [(&str, &str); 5] = [
     (
-        "name of a feature",
-        "UPDATE {0}.feature SET name = 'edited' WHERE id = ANY ($1)",
+        "attributes of a feature",
+        "UPDATE {0}.feature SET attributes = '{}' WHERE id = ANY ($1)",
     ),
     (
         "envelope of a feature",
-        "UPDATE {0}.feature SET envelope = occlusion.translate(envelope, occlusion.point3d(0.5, 0, 0)) WHERE id = ANY ($1)",
+        "UPDATE {0}.feature SET envelope = occlusion.translate(envelope, 0.5, 0, 0) WHERE id = ANY ($1)",
     ),
     (
         "top of its columns",

@@ -231,7 +231,8 @@ fn features_that_are_there_already_are_refused() {
     occlusion(&["import", file, "--scene", &name]).expect(0);
     let again = occlusion(&["import", file, "--scene", &name]).expect(2);
     assert!(
-        again.stderr.contains("holds 25 of these features already"),
+        again.stderr.contains("holds 25 of these features already")
+            && again.stderr.contains("--update"),
         "{}",
         again.stderr
     );
@@ -244,6 +245,83 @@ fn features_that_are_there_already_are_refused() {
     assert_eq!(scene.number("SELECT count(*) FROM {s}.feature"), 25);
     occlusion(&["import", file, "--scene", &name, "--replace"]).expect(0);
     assert_eq!(scene.number("SELECT count(*) FROM {s}.feature"), 25);
+}
+
+#[test]
+fn an_update_touches_what_changed_and_nothing_else() {
+    let folder = tempdir().unwrap();
+    let file = City::blocks().write(folder.path());
+    let file = file.to_str().unwrap();
+    let mut scene = TestScene::new("update");
+    let name = scene.name.clone();
+    let update = ["import", file, "--scene", &name, "--update"];
+    // A scene that is not there yet is made.
+    let first = occlusion(&update).expect(0);
+    assert!(
+        first.stdout.contains(": 25 new, 0 changed, 0 as they were"),
+        "{}",
+        first.stdout
+    );
+    scene.run(&format!(
+        "CALL occlusion.generate_view_cells('{name}', range => 60)"
+    ));
+    let numbers = "SELECT hashtext(string_agg(id || name || slot, ' ' ORDER BY id))::bigint FROM {s}.feature WHERE name <> 'annex'";
+    let before = scene.number(numbers);
+    let streets = scene.number("SELECT count(*) FROM {s}.street");
+    let wrong = format!("SELECT squares - right_squares FROM occlusion.scene_status('{name}')");
+
+    let again = occlusion(&update).expect(0);
+    assert!(
+        again.stdout.contains(": 0 new, 0 changed, 25 as they were"),
+        "{}",
+        again.stdout
+    );
+    assert!(again.stdout.contains("as they were\n"), "{}", again.stdout);
+    assert_eq!(scene.number("SELECT count(*) FROM {s}.change"), 0);
+
+    // One block grows, and another one is new.
+    let _ = City::blocks()
+        .block("block 2 2", [64.0, 64.0, 0.0], [84.0, 84.0, 40.0])
+        .block("annex", [170.0, 0.0, 0.0], [180.0, 10.0, 5.0])
+        .write(folder.path());
+    let changed = occlusion(&update).expect(0);
+    assert!(
+        changed
+            .stdout
+            .contains(": 1 new, 1 changed, 24 as they were"),
+        "{}",
+        changed.stdout
+    );
+    assert_eq!(scene.number(numbers), before);
+    for (expected, statement) in [
+        (26, "SELECT count(*) FROM {s}.feature"),
+        (26, "SELECT count(*) FROM {s}.mesh WHERE defect IS NULL"),
+        (26, "SELECT count(DISTINCT feature) FROM {s}.solid_column"),
+        (26, "SELECT count(*) FROM {s}.model"),
+        (
+            40,
+            "SELECT max(occlusion.z(occlusion.upper(envelope)))::bigint FROM {s}.feature WHERE name = 'block 2 2'",
+        ),
+        (
+            40,
+            "SELECT max(c.top)::bigint FROM {s}.solid_column AS c JOIN {s}.feature AS f ON f.id = c.feature WHERE c.grounded",
+        ),
+        (
+            2,
+            "SELECT count(*) FROM {s}.mesh WHERE xmin = (SELECT xmin FROM {s}.feature WHERE name = 'annex')",
+        ),
+        (2, "SELECT count(DISTINCT feature) FROM {s}.change"),
+    ] {
+        assert_eq!(scene.number(statement), expected, "{statement}");
+    }
+    assert_eq!(scene.number("SELECT count(*) FROM {s}.street"), streets);
+    assert!(scene.number(&wrong) > 0);
+    scene.run(&format!("CALL occlusion.refresh('{name}')"));
+    assert_eq!(scene.number(&wrong), 0);
+    occlusion(&["verify", &name, "--observers", "20", "--cells"]).expect(0);
+
+    let both = [&update[..], &["--replace"]].concat();
+    occlusion(&both).expect(2);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 # Every target is a script in scripts/; see CONTRIBUTING.md.
 # PG_CONFIG=/path/to/pg_config chooses another PostgreSQL, 14 to 18; "make test" without it tests on 15 and 18.
 
-.PHONY: help setup build db db-stop clean-db demo test attack crash-test bench-index bench-point bench-cells install lint fmt
+.PHONY: help setup build db db-stop clean-db demo test attack crash-test bench-index bench-point bench-cells bench-edits install lint fmt
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -41,6 +41,9 @@ bench-point: build ## live answers against PostGIS, Embree and the way of 2004 (
 
 bench-cells: build ## view cells, computed and stored, against one erosion, umbrae and Embree (FEATURES=10000 TOWN=300 is quicker, FORMAT=markdown, EMBREE=no)
 	@scripts/bench cells
+
+bench-edits: build ## what edits, repairs, counters, dump and restore cost (DELFT=no TOWN=2000 is quicker, FORMAT=markdown)
+	@scripts/bench edits
 
 install: ## copy what "make build" made into the server of PG_CONFIG
 	@scripts/install

@@ -37,6 +37,8 @@ pub struct Sifting<'a> {
     /// The features, and the tiles among which what hides them is sought; `None`: all within range that
     /// are not skipped, and all.
     pub known: Option<Known<'a>>,
+    /// Only what is seen over one of these boxes, or under it, is asked for; `None`: all is.
+    pub through: Option<&'a [Box3d]>,
 }
 
 /// What is left of a sifting before.
@@ -63,6 +65,12 @@ impl PointSolver {
         found: impl FnMut(Spot, Box3d),
     ) -> Result<Vec<usize>, S::Error> {
         self.begin();
+        if let Some(lines) = sifting
+            .through
+            .and_then(|places| lines(sifting.eye, places))
+        {
+            self.horizon.shut_beside(&lines);
+        }
         let query = PointQuery {
             eye: sifting.eye,
             range: f64::INFINITY,
@@ -116,6 +124,25 @@ impl PointSolver {
     }
 }
 
+/// The lines in plan of some boxes; `None` if the eye is above or below one.
+fn lines(eye: DVec3, boxes: &[Box3d]) -> Option<Vec<Span>> {
+    let mut lines = Vec::new();
+    for bounds in boxes {
+        add_lines(eye, bounds, &mut lines)?;
+    }
+    Some(lines)
+}
+
+/// Adds those of one box.
+fn add_lines(eye: DVec3, bounds: &Box3d, lines: &mut Vec<Span>) -> Option<()> {
+    let before = lines.len();
+    let flow = outline_slopes(&plan_corners(eye, bounds), 1.0, |line| {
+        lines.push(*line);
+        ControlFlow::Continue(())
+    });
+    (flow.is_continue() && lines.len() > before).then_some(())
+}
+
 /// In which directions features are looked for.
 struct Search {
     /// The lines of their boxes.
@@ -136,13 +163,7 @@ impl Search {
         };
         for (spot, envelope) in features {
             let first = search.lines.len();
-            let flow = outline_slopes(&plan_corners(eye, envelope), 1.0, |line| {
-                search.lines.push(*line);
-                ControlFlow::Continue(())
-            });
-            if flow.is_break() || search.lines.len() == first {
-                return None;
-            }
+            add_lines(eye, envelope, &mut search.lines)?;
             search.features.push((*spot, first..search.lines.len()));
         }
         for at in search.lines.iter().flat_map(slices) {

@@ -1,6 +1,6 @@
-//! [`may_be_behind`], whether something can be seen through the place of something else.
+//! What can be seen through the place of something else: [`may_be_behind`], and in which directions, [`widened`].
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::Box3d;
 
@@ -30,6 +30,20 @@ pub fn may_be_behind(cell: &Box3d, place: &Box3d, target: &Box3d) -> bool {
     })
 }
 
+/// Boxes through which all lines pass from the middle of a cell of this half edge, metres, to a point that some eye of the
+/// cell sees through one of `places`; `None` where a box has no bounds.
+///
+/// Of an eye at `d` from the middle, let `x` be a point of its line to `b` in a place. Where the line from the middle to
+/// `b` has gone as large a part of its way, it is no farther from `x` than `d` on both axes.
+pub fn widened(places: &[Box3d], middle: DVec3, half: f64) -> Option<Vec<Box3d>> {
+    let widened = |place: &Box3d| {
+        let corners = [place.min - middle, place.max - middle];
+        let reach = corners.map(|corner| corner.truncate().abs().max_element());
+        place.expanded(half + MARGIN + SHARE * reach[0].max(reach[1]))
+    };
+    places.iter().map(widened).collect()
+}
+
 fn corners(bounds: &Box3d, origin: DVec2) -> [DVec2; 4] {
     let [low, high] = [bounds.min, bounds.max].map(|corner| corner.truncate() - origin);
     [
@@ -48,7 +62,6 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
     use proptest::prelude::*;
 
     use super::*;

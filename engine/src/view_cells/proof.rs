@@ -84,6 +84,7 @@ impl CellSolver {
                     features: &open,
                     tiles: &tiles,
                 }),
+                through: None,
             };
             let mut seen = Vec::new();
             let found = |spot: Spot, _| seen.push(spot);

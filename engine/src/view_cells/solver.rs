@@ -5,7 +5,7 @@ use std::iter::successors;
 
 use glam::DVec3;
 
-use super::behind::may_be_behind;
+use super::behind::{may_be_behind, widened};
 use super::scene::{CellScene, Plain, Stage};
 use crate::point_visibility::{Known, Sifting, Spot};
 use crate::{Box3d, PointQuery, PointSolver};
@@ -85,7 +85,7 @@ impl CellSolver {
         is_open: &dyn Fn(&Box3d) -> bool,
         cancelled: &dyn Fn() -> bool,
     ) -> Option<Vec<CellSighting>> {
-        self.search(scene, query, HashSet::new(), is_open, cancelled)
+        self.search(scene, query, None, HashSet::new(), is_open, cancelled)
     }
 
     /// The features that may be seen from somewhere in a cell now that others are gone from their places, besides
@@ -111,14 +111,15 @@ impl CellSolver {
         let spot = |(tile, feature): (usize, usize)| Spot { tile, feature };
         let out = scene.features().filter(|&feature| is_out(feature));
         let out: HashSet<Spot> = out.map(spot).collect();
-        self.search(scene, query, out, is_open, cancelled)
+        self.search(scene, query, Some(gone), out, is_open, cancelled)
     }
 
-    /// Decides all features but some.
+    /// Decides all features but some, or what of them is seen through some places.
     fn search(
         &mut self,
         scene: &CellScene,
         query: &CellQuery,
+        through: Option<&[Box3d]>,
         out: HashSet<Spot>,
         is_open: &dyn Fn(&Box3d) -> bool,
         cancelled: &dyn Fn() -> bool,
@@ -128,7 +129,7 @@ impl CellSolver {
             .extend(out.iter().map(|spot| (*spot, DVec3::ZERO)));
         self.solves = 0;
         let mut search = Search {
-            looks_around: out.is_empty(),
+            through,
             solver: self,
             scene,
             stages: HashMap::new(),
@@ -184,8 +185,8 @@ struct Search<'a> {
     stages: HashMap<Option<u64>, Stage<'a>>,
     range: f64,
     precision: f64,
-    /// Whether most of what can be seen is not known yet, so that a look from some points tells most of it.
-    looks_around: bool,
+    /// Only what is seen through these places is asked for; `None`: all is.
+    through: Option<&'a [Box3d]>,
     is_open: &'a dyn Fn(&Box3d) -> bool,
     cancelled: &'a dyn Fn() -> bool,
 }
@@ -202,7 +203,8 @@ impl Search<'_> {
             }
             return;
         }
-        if self.looks_around {
+        // A look from some points tells most of what can be seen at all, and nothing that is new since something went.
+        if self.through.is_none() {
             self.look_around(&cell);
         }
         let left = self.sift(&cell, None);
@@ -273,6 +275,8 @@ impl Search<'_> {
         half: Option<f64>,
         before: Option<&Left>,
     ) -> Left {
+        let through = self.through;
+        let through = through.and_then(|places| widened(places, eye, half.unwrap_or(0.0)));
         let sifting = Sifting {
             eye,
             near,
@@ -282,6 +286,7 @@ impl Search<'_> {
                 features: &left.features,
                 tiles: &left.tiles,
             }),
+            through: through.as_deref(),
         };
         let scene = self.scene;
         let stage = self

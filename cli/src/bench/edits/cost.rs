@@ -26,7 +26,7 @@ const KINDS: [(&str, &str); 5] = [
     ),
     (
         "top of its columns",
-        "UPDATE {0}.solid_column SET top = top - 0.5 WHERE feature = ANY ($1)",
+        "UPDATE {0}.solid_column SET top = top + 0.5 WHERE feature = ANY ($1)",
     ),
     (
         "new feature",

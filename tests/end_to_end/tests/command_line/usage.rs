@@ -37,6 +37,7 @@ fn wrong_usage_exits_with_2() {
         &["bench"],
         &["bench", "index", "--rows", "0"],
         &["bench", "cells", "x", "--edge", "0"],
+        &["bench", "edits", "x", "--rows", "0"],
         &["render", "x", "--observer", "1,2,3", "--size", "big"],
         &["render", "x"],
         &["render", "x", "--cells", "--plan"],
@@ -57,6 +58,7 @@ fn help_has_examples_and_exit_statuses() {
         "render",
         "bench index",
         "bench cells",
+        "bench edits",
     ] {
         let mut arguments: Vec<&str> = command.split(' ').collect();
         arguments.extend(["--help", "--database", "x"]);

@@ -375,3 +375,59 @@ fn a_cell_that_misses_something_ends_it_with_an_error() {
     let fault = "false occlusion: \"view cell\" leaves out Building ";
     assert!(run.stderr.contains(fault), "{run:?}");
 }
+
+fn number(database: &mut TestDatabase, statement: &str) -> i64 {
+    let row = database.client.query_one(statement, &[]);
+    row.unwrap().get(0)
+}
+
+#[test]
+fn edits_and_repairs_are_measured() {
+    let mut database = town("bench_edits");
+    let call = "CALL occlusion.generate_view_cells('a town', range => 60, smallest => 16)";
+    database.client.batch_execute(call).unwrap();
+    let before = number(&mut database, "SELECT count(*) FROM \"a town\".feature");
+    let arguments = ["--rows", "1", "--rows", "20", "--rounds", "2", "--demolish"];
+    let more = ["2", "--observers", "5", "--range", "60", "--format"];
+    let to = ["bench", "edits", "a town", "--database", &database.url];
+    let run = occlusion(&[&to[..], &arguments, &more, &["markdown"]].concat()).expect(0);
+    let text = &run.stdout;
+    let rows = cells(text);
+    for (edit, more) in [
+        ("attributes of a feature", 1),
+        ("envelope of a feature", 1),
+        ("new feature", 1),
+        ("deleted feature", 1),
+        // Of some features there are several.
+        ("top of its columns", 3),
+    ] {
+        let counts: Vec<usize> = rows
+            .iter()
+            .filter(|row| row[0] == edit)
+            .map(|row| row[1].parse().unwrap())
+            .collect();
+        assert_eq!(counts.len(), 2, "{text}");
+        assert!((1..=more).contains(&counts[0]), "{text}");
+        assert!((20..=20 * more).contains(&counts[1]), "{text}");
+    }
+    for query in ["visible_features", "visible_set"] {
+        let row = rows.iter().find(|row| row[0] == query).expect(query);
+        let ratio: f64 = row[3].parse().unwrap();
+        assert!(ratio > 0.0, "{text}");
+    }
+    let (_, repairs) = text.split_once("### a town, repairs").expect(text);
+    assert_eq!(cells(repairs).len(), 4, "{text}");
+    assert!(
+        text.contains("visible_features, 60 m, meanwhile: "),
+        "{text}"
+    );
+
+    assert_eq!(
+        number(&mut database, "SELECT count(*) FROM \"a town\".feature"),
+        before - 2
+    );
+    let wrong = "SELECT squares - right_squares + edits FROM occlusion.scene_status('a town')";
+    assert_eq!(number(&mut database, wrong), 0);
+    assert!(!database.finds(SCHEMA, "occlusion_bench_edits"));
+    occlusion(&["bench", "edits", "atlantis", "--database", &database.url]).expect(3);
+}

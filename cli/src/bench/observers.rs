@@ -4,6 +4,7 @@ use postgres::Client;
 
 use crate::database::quoted;
 use crate::failure::Failure;
+use crate::sql_types::Point3d;
 
 /// Makes a schema with a table of observers anew: points of street polygons that a seed chooses.
 pub fn place(
@@ -48,4 +49,11 @@ pub fn place(
         )));
     }
     Ok(())
+}
+
+/// The eyes of those that were placed.
+pub fn eyes(client: &mut Client, schema: &str) -> Result<Vec<Point3d>, Failure> {
+    let all = format!("SELECT eye FROM {schema}.observer ORDER BY id");
+    let rows = client.query(&all, &[])?;
+    Ok(rows.iter().map(|row| row.get(0)).collect())
 }

@@ -84,7 +84,7 @@ impl Tally {
     /// Counts what became of a batch of an update.
     pub fn count(&mut self, outcome: &Outcome) {
         if let Some(update) = &mut self.update {
-            update.new += outcome.new.len();
+            update.new += outcome.new;
             update.same += outcome.same.len();
         }
     }

@@ -39,24 +39,27 @@ const PARTS: [(&str, &str, &str); 4] = [
 /// What a feature is apart from these.
 const OWN: &str = "class, envelope, outline, attributes";
 
-/// What became of the features of a batch: their numbers, and whether they were there and changed, or stay as they are.
+/// What became of the features of a batch.
 #[derive(Debug, Default)]
 pub struct Outcome {
     /// In the order of the batch.
     pub ids: Vec<i64>,
-    /// Of these, what was not there before.
-    pub new: HashSet<i64>,
+    /// How many were not there before.
+    pub new: usize,
     /// Of these, what is as it was.
     pub same: HashSet<i64>,
+}
+
+/// The temporary tables.
+fn staged() -> impl Iterator<Item = &'static str> {
+    let parts = PARTS.map(|(table, ..)| table);
+    ["feature", "shape"].into_iter().chain(parts)
 }
 
 /// Makes the temporary tables, which go away with the transaction.
 pub fn prepare(transaction: &mut Transaction<'_>, scene: &str) -> Result<(), Failure> {
     let schema = quoted(scene);
-    for table in ["feature", "shape"]
-        .into_iter()
-        .chain(PARTS.map(|(table, ..)| table))
-    {
+    for table in staged() {
         transaction.batch_execute(&format!(
             "CREATE TEMPORARY TABLE {table} (LIKE {schema}.{table} INCLUDING GENERATED INCLUDING INDEXES) \
              ON COMMIT DROP"
@@ -73,17 +76,11 @@ pub fn write(
     solids: &[Solid],
 ) -> Result<Outcome, Failure> {
     let known = rows::known(transaction, scene, features)?;
-    let mut ids = rows::new_ids(transaction, scene, features.len())?;
-    let new = ids.iter().zip(features);
-    let new = new.filter(|(_, feature)| !known.contains_key(&feature.name));
-    let new: HashSet<i64> = new.map(|(&id, _)| id).collect();
-    for (id, feature) in ids.iter_mut().zip(features) {
-        *id = known.get(&feature.name).copied().unwrap_or(*id);
-    }
-    for table in ["feature", "shape"]
-        .into_iter()
-        .chain(PARTS.map(|(table, ..)| table))
-    {
+    let new = rows::new_ids(transaction, scene, features.len() - known.len())?;
+    let mut next = new.iter();
+    let number = |feature: &Feature| known.get(&feature.name).or_else(|| next.next()).copied();
+    let ids: Vec<i64> = features.iter().filter_map(number).collect();
+    for table in staged() {
         transaction.batch_execute(&format!("TRUNCATE {STAGE}.{table}"))?;
     }
     let first_slot = rows::first_slot(transaction, scene)?;
@@ -92,7 +89,11 @@ pub fn write(
     rows::models(transaction, STAGE, &ids, solids)?;
     let same = drop_same(transaction, scene)?;
     move_on(transaction, scene, &new)?;
-    Ok(Outcome { ids, new, same })
+    Ok(Outcome {
+        ids,
+        new: new.len(),
+        same,
+    })
 }
 
 /// Takes out of the temporary tables what is the same in the scene; returns which features that are.
@@ -128,13 +129,8 @@ fn drop_same(transaction: &mut Transaction<'_>, scene: &str) -> Result<HashSet<i
 }
 
 /// Moves what is left in the temporary tables to the scene.
-fn move_on(
-    transaction: &mut Transaction<'_>,
-    scene: &str,
-    new: &HashSet<i64>,
-) -> Result<(), Failure> {
+fn move_on(transaction: &mut Transaction<'_>, scene: &str, new: &[i64]) -> Result<(), Failure> {
     let schema = quoted(scene);
-    let new: Vec<i64> = new.iter().copied().collect();
     let staged: Vec<String> = OWN
         .split(", ")
         .map(|column| format!("s.{column}"))

@@ -18,7 +18,7 @@ use clap::builder::RangedU64ValueParser;
 use postgres::{IsolationLevel, Transaction};
 use renderer::Renderer;
 
-use crate::database::{Database, shell_word};
+use crate::database::{Database, literal, shell_word};
 use crate::failure::{EXIT_STATUS, Failure};
 use crate::scene::{self, Scene, Surfaces};
 use crate::terminal;
@@ -184,9 +184,9 @@ impl Verify {
         }
         Err(Failure::Unready(format!(
             "scene \"{}\" has no streets, so there is no place for observers\n  \
-             hint: SELECT occlusion.generate_view_region('{}') makes some from the open space",
+             hint: SELECT occlusion.generate_view_region({}) makes some from the open space",
             self.scene,
-            self.scene.replace('\'', "''")
+            literal(&self.scene)
         )))
     }
 

@@ -2,6 +2,7 @@
 
 mod auto_refresh;
 mod city;
+mod fill;
 mod ground;
 mod job;
 mod occlusion_volumes;

@@ -1,8 +1,9 @@
 //! Squares of the view region that deletions alone concern: of their cells those are solved again that saw what is
 //! gone, and only for what is behind it (`docs/how-it-works.md`, "When a cell counts").
 
+use super::fill::{is_eye, proven};
 use super::streets;
-use super::view_cells::{Block, Blocks, is_eye, proven};
+use super::view_cells::{Block, Blocks};
 use super::{Workers, failed, run};
 use crate::snapshot_read::Moment;
 use crate::types::Box3d;

@@ -87,7 +87,7 @@ pub fn measure(
     })
 }
 
-/// Features with what hides, as many as wanted if there are.
+/// Features, as many as wanted if there are, in no order.
 fn features(client: &mut Client, scene: &str, count: usize) -> Result<Vec<i64>, Failure> {
     let schema = quoted(scene);
     let statement = format!(

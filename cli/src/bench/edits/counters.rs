@@ -6,11 +6,14 @@ use indicatif::ProgressBar;
 use postgres::Client;
 
 use super::SCHEMA;
+use crate::bench::observers;
 use crate::bench::quantile::quantile;
 use crate::bench::table::Table;
 use crate::database::literal;
 use crate::failure::Failure;
-use crate::sql_types::Point3d;
+
+/// How many questions there are.
+pub const QUESTIONS: usize = 2;
 
 /// Milliseconds of a question, counted and not.
 struct Trial {
@@ -27,13 +30,9 @@ pub fn measure(
     rounds: usize,
     bar: &ProgressBar,
 ) -> Result<Table, Failure> {
-    let observers = client.query(
-        &format!("SELECT eye FROM {SCHEMA}.observer ORDER BY id"),
-        &[],
-    )?;
-    let observers: Vec<Point3d> = observers.iter().map(|row| row.get(0)).collect();
+    let observers = observers::eyes(client, SCHEMA)?;
     let scene = literal(scene);
-    let mut trials = [
+    let mut trials: [Trial; QUESTIONS] = [
         (
             "visible_features",
             format!("SELECT count(*) FROM occlusion.visible_features({scene}, $1, {range:?})"),

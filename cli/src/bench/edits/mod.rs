@@ -28,7 +28,7 @@ const EXAMPLES: &str = "Examples:
 /// deleted, one after the other, FOR GOOD, each followed by a refresh, while another session asks what can be seen; it
 /// asks as often before, when nothing else goes on.
 ///
-/// It needs scenes with streets, of which those without view cells (occlusion generate --cells) are only packed again.
+/// It needs a superuser, and scenes with streets, of which those without view cells (occlusion generate --cells) are only packed again.
 /// It makes a schema occlusion_bench_edits, which it drops, also when it was there before. "make bench-edits" makes the
 /// scenes.
 #[derive(Args, Debug)]
@@ -41,7 +41,7 @@ pub struct Edits {
     #[arg(long = "rows", value_name = "N", default_values_t = [1, 10_000],
           value_parser = RangedU64ValueParser::<usize>::new().range(1..=1_000_000))]
     rows: Vec<usize>,
-    /// How often each edit runs
+    /// How often each edit runs, and each observer is asked
     #[arg(long, value_name = "N", default_value_t = 15,
           value_parser = RangedU64ValueParser::<usize>::new().range(1..=10_000))]
     rounds: usize,
@@ -80,7 +80,7 @@ impl Edits {
             self.print(&format!("{scene}, edits"), &costs);
             // Of what was rolled back the logs are full: nobody else cleans them up in time.
             client.batch_execute("VACUUM ANALYZE")?;
-            let bar = terminal::bar(self.rounds, "queries");
+            let bar = terminal::bar(counters::QUESTIONS * self.rounds, "queries");
             let counted = counters::measure(&mut client, scene, self.range, self.rounds, &bar)?;
             bar.finish_and_clear();
             self.print(&format!("{scene}, queries"), &counted);

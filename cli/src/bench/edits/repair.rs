@@ -8,6 +8,7 @@ use indicatif::ProgressBar;
 use postgres::Client;
 
 use super::{Edits, SCHEMA};
+use crate::bench::observers;
 use crate::bench::quantile::quantile;
 use crate::bench::table::Table;
 use crate::database::{literal, quoted};
@@ -22,12 +23,12 @@ pub fn measure(
     bar: &ProgressBar,
 ) -> Result<Table, Failure> {
     // So that a repair is of nothing else.
-    client.batch_execute(&format!("CALL occlusion.refresh({})", literal(scene)))?;
+    let refresh = format!("CALL occlusion.refresh({})", literal(scene));
+    client.batch_execute(&refresh)?;
     let mut asking = Asking::new(edits, scene)?;
-    let mut alone = Vec::new();
-    asking.once(&mut alone)?;
-    alone.clear();
-    asking.once(&mut alone)?;
+    // Once to warm the caches.
+    asking.once()?;
+    let mut alone = asking.once()?;
     let mut meanwhile = Vec::new();
     let mut rows = Vec::new();
     for feature in chosen(client, scene, edits)? {
@@ -36,8 +37,7 @@ pub fn measure(
         let (repaired, asked) = thread::scope(|scope| {
             let asked = scope.spawn(|| asking.until(&is_repaired));
             let began = Instant::now();
-            let refreshed =
-                client.batch_execute(&format!("CALL occlusion.refresh({})", literal(scene)));
+            let refreshed = client.batch_execute(&refresh);
             let seconds = began.elapsed().as_secs_f64();
             is_repaired.store(true, Ordering::Relaxed);
             let asked = asked.join().expect("asking does not panic");
@@ -112,11 +112,9 @@ impl Asking {
             edits.range
         );
         let question = client.prepare(&question)?;
-        let all = format!("SELECT eye FROM {SCHEMA}.observer ORDER BY id");
-        let observers = client.query(&all, &[])?;
         Ok(Self {
             question,
-            observers: observers.iter().map(|row| row.get(0)).collect(),
+            observers: observers::eyes(&mut client, SCHEMA)?,
             client,
             next: 0,
         })
@@ -131,11 +129,8 @@ impl Asking {
         Ok(began.elapsed().as_secs_f64() * 1e3)
     }
 
-    fn once(&mut self, times: &mut Vec<f64>) -> Result<(), Failure> {
-        for _ in 0..self.observers.len() {
-            times.push(self.ask()?);
-        }
-        Ok(())
+    fn once(&mut self) -> Result<Vec<f64>, Failure> {
+        (0..self.observers.len()).map(|_| self.ask()).collect()
     }
 
     fn until(&mut self, is_over: &AtomicBool) -> Result<Vec<f64>, Failure> {

@@ -3,7 +3,7 @@
 use postgres::Client;
 
 use super::SCHEMA;
-use crate::database::quoted;
+use crate::database::{literal, quoted};
 use crate::failure::Failure;
 
 /// Drops all that the benchmark made.
@@ -33,7 +33,7 @@ pub struct Contender {
 impl Contender {
     /// All ways for one scene and range, ours first.
     pub fn all(scene: &str, range: f64, has_postgis: bool, has_volumes: bool) -> Vec<Self> {
-        let literal = scene.replace('\'', "''");
+        let literal = literal(scene);
         let schema = quoted(scene);
         let around = format!("occlusion.expand(occlusion.box3d(q.eye, q.eye), {range:?})");
         let in_range = format!(
@@ -45,14 +45,14 @@ impl Contender {
                 "visible_features",
                 Claim::Complete,
                 format!(
-                    "v.feature_id, v.class FROM occlusion.visible_features('{literal}', q.eye, {range:?}) AS v"
+                    "v.feature_id, v.class FROM occlusion.visible_features({literal}, q.eye, {range:?}) AS v"
                 ),
             ),
             Self::new(
                 "the same, in a cone of 60 degrees",
                 Claim::OfAPart,
                 format!(
-                    "v.feature_id, v.class FROM occlusion.visible_features('{literal}', \
+                    "v.feature_id, v.class FROM occlusion.visible_features({literal}, \
                          occlusion.view_cone(q.eye, q.id * 77 % 360, 60, {range:?})) AS v"
                 ),
             ),

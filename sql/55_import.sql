@@ -6,7 +6,7 @@ RETURNS SETOF record
 LANGUAGE c VOLATILE STRICT SET search_path = pg_catalog, pg_temp ROWS 1
 AS 'MODULE_PATHNAME', 'settle_ground_wrapper';
 COMMENT ON FUNCTION occlusion.settle_ground(text, bigint[]) IS
-    'of some features, makes the solids of those that do not stand on the ground ungrounded, and removes them where a bottom was added; returns how many there are of each';
+    'of some new features, makes the solids of those that do not stand on the ground ungrounded, and removes them where a bottom was added, and so of other buildings that do not any more; returns how many there are of each among the new ones';
 
 CREATE FUNCTION occlusion.import_rows(scene text, source text, query text) RETURNS bigint
 LANGUAGE c VOLATILE STRICT SET search_path = pg_catalog, pg_temp

@@ -9,3 +9,6 @@ DROP FUNCTION occlusion.make_city(text, integer, bigint, integer, integer);
 -- include sql/70_queries.sql
 
 DROP FUNCTION occlusion.visible_features_statement(text, boolean), occlusion.require_range(float8);
+
+COMMENT ON FUNCTION occlusion.settle_ground(text, bigint[]) IS
+    'of some new features, makes the solids of those that do not stand on the ground ungrounded, and removes them where a bottom was added, and so of other buildings that do not any more; returns how many there are of each among the new ones';

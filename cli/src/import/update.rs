@@ -59,6 +59,8 @@ fn staged() -> impl Iterator<Item = &'static str> {
 /// Makes the temporary tables, which go away with the transaction.
 pub fn prepare(transaction: &mut Transaction<'_>, scene: &str) -> Result<(), Failure> {
     let schema = quoted(scene);
+    // Numbers are compared as text, which is exact unless somebody asks for fewer digits.
+    transaction.batch_execute("SET LOCAL extra_float_digits = 1")?;
     for table in staged() {
         transaction.batch_execute(&format!(
             "CREATE TEMPORARY TABLE {table} (LIKE {schema}.{table} INCLUDING GENERATED INCLUDING INDEXES) \
@@ -99,7 +101,6 @@ pub fn write(
 /// Takes out of the temporary tables what is the same in the scene; returns which features that are.
 fn drop_same(transaction: &mut Transaction<'_>, scene: &str) -> Result<HashSet<i64>, Failure> {
     let schema = quoted(scene);
-    // Numbers as text are exact.
     let content = |schema: &str, (table, columns, _): (&str, &str, &str)| {
         format!(
             "(SELECT array_agg(p::text ORDER BY p::text) \

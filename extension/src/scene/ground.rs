@@ -1,4 +1,4 @@
-//! Which solids stand on the ground: that shows only in the feet of all features of a scene.
+//! Which solids stand on the ground: that shows only in the feet of all features of a scene, new ones and old ones.
 
 use super::{count, failed, quoted, require, run};
 use crate::types::Box3d;
@@ -6,6 +6,7 @@ use engine::{LocalGround, is_building};
 use pgrx::Spi;
 use pgrx::iter::TableIterator;
 use pgrx::{name, pg_extern};
+use std::collections::HashSet;
 
 /// A feature whose solids stand on its own foot.
 struct Standing {
@@ -28,16 +29,18 @@ fn settle_ground(
     TableIterator::once(settle(scene, &features))
 }
 
-/// Of some features, makes the solids of those that are not buildings on the ground ungrounded, and
-/// removes them where a bottom was added. Returns how many there are of each.
+/// Of some new features, makes the solids of those that are not buildings on the ground ungrounded, and
+/// removes them where a bottom was added. Returns how many there are of each. So it does with other buildings that, now that
+/// the new ones are there, turn out not to stand on the ground; what else was made grounded stays so.
 pub fn settle(scene: &str, features: &[i64]) -> (i64, i64) {
     let scene = quoted(scene);
+    let new: HashSet<i64> = features.iter().copied().collect();
     let ground = LocalGround::new(&envelopes(&scene));
-    let hangs = |solid: &&Standing| {
-        let stands = is_building(&solid.class) && ground.holds(&solid.envelope, solid.foot);
-        !stands
+    let hangs = |solid: &&Standing| match is_building(&solid.class) {
+        true => !ground.holds(&solid.envelope, solid.foot),
+        false => new.contains(&solid.id),
     };
-    let standing = standing(&scene, features);
+    let standing = standing(&scene);
     let (open, aloft): (Vec<&Standing>, Vec<&Standing>) = standing
         .iter()
         .filter(hangs)
@@ -63,7 +66,15 @@ pub fn settle(scene: &str, features: &[i64]) -> (i64, i64) {
         ),
         &[ids(&open).into()],
     );
-    (count(aloft.len()), count(open.len()))
+    let of_new = |solids: &[&Standing]| {
+        count(
+            solids
+                .iter()
+                .filter(|solid| new.contains(&solid.id))
+                .count(),
+        )
+    };
+    (of_new(&aloft), of_new(&open))
 }
 
 fn envelopes(scene: &str) -> Vec<engine::Box3d> {
@@ -81,8 +92,8 @@ fn envelopes(scene: &str) -> Vec<engine::Box3d> {
         .collect()
 }
 
-/// Those of some features that have a grounded solid, or a bottom that was added.
-fn standing(scene: &str, features: &[i64]) -> Vec<Standing> {
+/// All features that have a grounded solid, or a bottom that was added.
+fn standing(scene: &str) -> Vec<Standing> {
     let query = format!(
         "SELECT f.id, f.class, f.envelope, least(s.foot, occlusion.z(occlusion.lower(i.box))), \
                 m.repair IS NOT NULL \
@@ -92,13 +103,12 @@ fn standing(scene: &str, features: &[i64]) -> Vec<Standing> {
                 ON s.feature OPERATOR(pg_catalog.=) f.id \
          LEFT JOIN {scene}.inner_envelope AS i ON i.feature OPERATOR(pg_catalog.=) f.id \
          LEFT JOIN {scene}.mesh AS m ON m.feature OPERATOR(pg_catalog.=) f.id \
-         WHERE f.id OPERATOR(pg_catalog.=) ANY ($1) \
-           AND (s.grounded OR i.grounded \
-                OR m.repair IS NOT NULL AND (s.feature IS NOT NULL OR i.feature IS NOT NULL))"
+         WHERE s.grounded OR i.grounded \
+            OR m.repair IS NOT NULL AND (s.feature IS NOT NULL OR i.feature IS NOT NULL)"
     );
     let standing = Spi::connect(|client| {
         client
-            .select(&query, None, &[features.to_vec().into()])?
+            .select(&query, None, &[])?
             .map(|row| {
                 Ok((
                     row.get::<i64>(1)?,

@@ -111,6 +111,46 @@ fn skywalks_are_not_grounded() {
 }
 
 #[test]
+fn what_stood_alone_hangs_once_the_ground_is_known() {
+    let folder = tempdir().unwrap();
+    let write = |name: &str, city: City| {
+        let path = folder.path().join(name);
+        fs::write(&path, city.text()).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let walk = City::default().block("walk", [10.0, 2.0, 6.0], [30.0, 8.0, 9.0]);
+    let houses = City::default()
+        .block("west", [0.0, 0.0, 0.0], [10.0, 10.0, 20.0])
+        .block("east", [30.0, 0.0, 0.0], [40.0, 10.0, 20.0]);
+    let (first, second) = (
+        write("walk.city.json", walk),
+        write("houses.city.json", houses),
+    );
+    let grounded = |name: &str| {
+        format!(
+            "SELECT count(*) FROM {{s}}.feature AS f JOIN {{s}}.inner_envelope AS i ON i.feature = f.id \
+             WHERE f.name = '{name}' AND i.grounded AND \
+                 (SELECT bool_and(c.grounded) FROM {{s}}.solid_column AS c WHERE c.feature = f.id)"
+        )
+    };
+    for more in [&[][..], &["--update"]] {
+        let mut scene = TestScene::new("ground");
+        let name = scene.name.clone();
+        occlusion(&["import", &first, "--scene", &name]).expect(0);
+        assert_eq!(scene.number(&grounded("walk")), 1);
+        let run = occlusion(&[&["import", &second, "--scene", &name], more].concat()).expect(0);
+        assert!(
+            run.stdout.contains("2, 2 of them on solid ground"),
+            "{}",
+            run.stdout
+        );
+        for (feature, expected) in [("walk", 0), ("west", 1), ("east", 1)] {
+            assert_eq!(scene.number(&grounded(feature)), expected, "{feature}");
+        }
+    }
+}
+
+#[test]
 fn a_missing_bottom_is_added_on_the_ground_alone() {
     let folder = tempdir().unwrap();
     let text = City::default()
